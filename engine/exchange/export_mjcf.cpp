@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/brief.h"
@@ -41,6 +43,7 @@ class MjcfWriter {
   MjcfWriter(const RunSetup& setup, const std::string& program)
       : setup_(setup), world_(setup.world), tree_(treeOf(world_)), joints_(encodeJoints(world_, tree_)) {
     findMaterials();
+    findGeoms();
     findSites();
     file_.text = "<!-- By " + program + ". ";
   }
@@ -99,6 +102,29 @@ class MjcfWriter {
       frictions.insert(wall.material.friction);
     }
     isOneFriction_ = frictions.size() <= 1;
+  }
+
+  // Of several of a body the first has its name.
+  void findGeoms() {
+    std::set<std::string> taken;
+    for (const Wall& wall : world_.walls) {
+      taken.insert(wall.name);
+    }
+    for (const Body& body : world_.bodies) {
+      taken.insert(body.name);
+    }
+    for (const Body& body : world_.bodies) {
+      std::vector<std::string>& names = geoms_.emplace_back();
+      names.push_back(body.name);
+      for (int part = 1; part < body.partCount(); ++part) {
+        std::string name = body.name + "-" + std::to_string(part + 1);
+        while (!taken.insert(name).second) {
+          name += "-";
+        }
+        names.push_back(std::move(name));
+      }
+      geomCount_ += names.size();
+    }
   }
 
   // MuJoCo's acts on free bodies, at the middles of boxes as they are written.
@@ -179,21 +205,21 @@ class MjcfWriter {
            mjcfAttribute("diaginertia", mjcfNumbers(body.mass.inertiaBody)) + "/>");
     }
     for (int part = 0; part < body.partCount(); ++part) {
-      addGeom(body, part, color, indent + "  ");
+      addGeom(body, part, geoms_[index][static_cast<std::size_t>(part)], color, indent + "  ");
     }
     addSites(number, indent + "  ");
   }
 
-  // Of several of a body the first has its name.
-  void addGeom(const Body& body, int part, const Color& color, const std::string& indent) {
+  void addGeom(const Body& body, int part, const std::string& name, const Color& color,
+               const std::string& indent) {
     std::string place;
     if (!body.parts.empty()) {
       const Pose inBox = partPose(body, part, Pose{});
       place = mjcfAttribute("pos", mjcfNumbers(inBox.position)) +
               mjcfAttribute("quat", mjcfNumbers(Quat(inBox.worldFromBody).normalized()));
     }
-    line(indent + "<geom" + (part == 0 ? mjcfAttribute("name", body.name) : std::string()) + " type=\"box\"" +
-         place + mjcfAttribute("size", mjcfNumbers(partHalfExtents(body, part))) + frictionOf(body.material) +
+    line(indent + "<geom" + mjcfAttribute("name", name) + " type=\"box\"" + place +
+         mjcfAttribute("size", mjcfNumbers(partHalfExtents(body, part))) + frictionOf(body.material) +
          mjcfAttribute("rgba", mjcfNumbers({color.red / 255.0, color.green / 255.0, color.blue / 255.0, 1})) +
          "/>");
   }
@@ -249,7 +275,8 @@ class MjcfWriter {
   void addContacts() {
     std::vector<std::string> elements = joints_.excludes;
     const std::size_t boxes = world_.bodies.size();
-    if (!isOneFriction_ && boxes * (boxes - 1) / 2 + boxes * world_.walls.size() > kMostMjcfPairs) {
+    if (!isOneFriction_ &&
+        geomCount_ * (geomCount_ - 1) / 2 + geomCount_ * world_.walls.size() > kMostMjcfPairs) {
       throw InputError("found boxes and walls of different friction in more than " +
                        std::to_string(kMostMjcfPairs) + " pairs, expected fewer, or one friction for all");
     }
@@ -257,7 +284,7 @@ class MjcfWriter {
       const Body& body = world_.bodies[a];
       for (const Wall& wall : world_.walls) {
         if (!isOneFriction_ && tree_.oneWith[a]) {
-          elements.push_back(pairOf(body.name, wall.name, touching(body.material, wall.material)));
+          addPairs(geoms_[a], {wall.name}, touching(body.material, wall.material), elements);
         }
       }
       for (std::size_t b = a + 1; b < boxes; ++b) {
@@ -266,11 +293,19 @@ class MjcfWriter {
         const int two = static_cast<int>(b);
         const bool isNeeded = !isOneFriction_ || tree_.areJoined(one, two);
         if (isNeeded && tree_.oneWith[a] != tree_.oneWith[b] && mayTouch(world_, one, two)) {
-          elements.push_back(pairOf(body.name, other.name, touching(body.material, other.material)));
+          addPairs(geoms_[a], geoms_[b], touching(body.material, other.material), elements);
         }
       }
     }
     addSection("contact", elements);
+  }
+  static void addPairs(const std::vector<std::string>& some, const std::vector<std::string>& others,
+                       const Material& material, std::vector<std::string>& elements) {
+    for (const std::string& one : some) {
+      for (const std::string& other : others) {
+        elements.push_back(pairOf(one, other, material));
+      }
+    }
   }
   static std::string pairOf(const std::string& a, const std::string& b, const Material& material) {
     const double friction = material.friction;
@@ -306,6 +341,8 @@ class MjcfWriter {
   const World& world_;
   MjcfTree tree_;
   MjcfJoints joints_;
+  std::vector<std::vector<std::string>> geoms_;  // their names, by body
+  std::size_t geomCount_ = 0;
   std::vector<Site> sites_;
   std::vector<std::string> tendons_;
   MjcfFile file_;

@@ -219,7 +219,7 @@ class MjcfReader {
     }
   }
 
-  // None where a solid box has it.
+  // None where a solid box, whose moments are given, has it.
   static void writeInertia(const Mat3& inertia, const Vec3& solid, SceneJson& item) {
     if (inertia != Mat3(inertia.diagonal().asDiagonal())) {
       item["inertia"] = {arrayOf(Vec3(inertia.row(0))), arrayOf(Vec3(inertia.row(1))),
@@ -229,15 +229,33 @@ class MjcfReader {
     }
   }
 
+  static void writeParts(const std::vector<MjcfGeom>& parts, SceneJson& item) {
+    for (const MjcfGeom& part : parts) {
+      SceneJson one = {{"half_extents", arrayOf(Vec3(part.size.data()))}};
+      one["position"] = arrayOf(part.position);
+      if (part.turn.coeffs() != Quat::Identity().coeffs()) {
+        one["orientation"] = arrayOf(part.turn);
+      }
+      item["parts"].push_back(one);
+    }
+  }
+
+  // Scenes count what boxes share once, MuJoCo each box: mass, centre and inertia of several are written.
   static void writeBox(const MjcfSurface& box, SceneJson& item) {
     const Vec3 size(box.geom.size[0], box.geom.size[1], box.geom.size[2]);
-    item["half_extents"] = arrayOf(size);
+    if (box.parts.empty()) {
+      item["half_extents"] = arrayOf(size);
+    } else {
+      writeParts(box.parts, item);
+    }
     if (box.movable) {
       item["mass"] = box.mass.mass;
       if (box.mass.inertia) {
-        writeInertia(*box.mass.inertia, solidBox(size, box.mass.mass).inertiaBody, item);
+        const bool isOne = box.parts.empty();
+        writeInertia(*box.mass.inertia,
+                     isOne ? solidBox(size, box.mass.mass).inertiaBody : Vec3(Vec3::Zero()), item);
       }
-      if (!box.mass.center.isZero(0)) {
+      if (!box.parts.empty() || !box.mass.center.isZero(0)) {
         item["center"] = arrayOf(box.mass.center);
       }
     } else {

@@ -13,8 +13,8 @@ struct ImportedScene {
 inline constexpr double kImportedDuration = 10;  ///< [s] MJCF has none
 
 /// A model of MuJoCo (MJCF) as a scene: planes as walls, boxes without joint as fixed boxes, bodies that move
-/// and have one box that collides as boxes, with their joints to the bodies that they are in and those of
-/// <equality>, with the masses, inertias, poses and classes of defaults that MuJoCo gives them, in frames,
+/// as boxes of one or several parts that collide, with their joints to the bodies that they are in and those
+/// of <equality>, with the masses, inertias, poses and classes of defaults that MuJoCo gives them, in frames,
 /// copies (exchange/mjcf_replicate.h) and included files (exchange/mjcf_include.h) too; tendons between two
 /// sites as springs, ropes and rods, actuators that follow something as motors (exchange/mjcf_links.h),
 /// damping of free joints as drag, and the start of the key frame "start" if there is one. Coefficients of

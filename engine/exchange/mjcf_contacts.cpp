@@ -4,8 +4,11 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
+#include "core/brief.h"
 #include "exchange/friction_fit.h"
 #include "scene/json_tree.h"
 
@@ -17,8 +20,9 @@ class ContactReader {
   ContactReader(MjcfDocument& document, const MjcfModel& model, FilterParent filterParent)
       : document_(document), surfaces_(model.surfaces), model_(model), filterParent_(filterParent) {
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-      if (!surfaces_[i].geom.name.empty()) {
-        byGeom_.emplace(surfaces_[i].geom.name, i);
+      const MjcfSurface& surface = surfaces_[i];
+      for (std::size_t part = 0; part < surface.geomCount(); ++part) {
+        byGeom_.emplace(surface.parts.empty() ? surface.geom.name : surface.parts[part].name, i);
       }
     }
   }
@@ -31,6 +35,7 @@ class ContactReader {
         }
       }
     }
+    checkPairs();
     passThroughJoined();
     for (const XmlElement* const contacts : document_.sections("contact")) {
       for (const XmlElement& each : contacts->children) {
@@ -57,7 +62,7 @@ class ContactReader {
     for (const int k : {0, 1}) {
       const char* const attribute = k == 0 ? "geom1" : "geom2";
       const auto found = byGeom_.find(pair.text(attribute));
-      if (found == byGeom_.end()) {
+      if (found == byGeom_.end() || found->first.empty()) {
         document_.fail(pair, inQuotes(pair.text(attribute)) + " for " + attribute, "the name of a <geom>");
       }
       ends[k] = found->second;
@@ -68,8 +73,40 @@ class ContactReader {
     if (sliding < 0 || (friction.size() > 1 && friction[1] != sliding)) {
       document_.fail(pair, *pair.find("friction"), "the same friction in all directions, not below 0");
     }
+    if (ends[0] == ends[1]) {
+      document_.ignore("pair of one body");
+      return;
+    }
     const int most = std::max(surfaces_[ends[0]].geom.condim, surfaces_[ends[1]].geom.condim);
-    pairs_[std::minmax(ends[0], ends[1])] = document_.integer(pair, "condim", most) == 1 ? 0 : sliding;
+    const double found = document_.integer(pair, "condim", most) == 1 ? 0 : sliding;
+    const Pair bodies = std::minmax(ends[0], ends[1]);
+    NamedGeoms& named = named_[bodies];
+    if (named.last != nullptr && geomPairs(bodies) > 1 && pairs_[bodies] != found) {
+      document_.fail(pair,
+                     "a friction of " + brief(found) + " where other geoms of the two bodies have " +
+                         brief(pairs_[bodies]),
+                     "one for all geoms of two bodies");
+    }
+    named.last = &pair;
+    named.geoms.insert(std::minmax(pair.text("geom1"), pair.text("geom2")));
+    pairs_[bodies] = found;
+  }
+
+  std::size_t geomPairs(const Pair& bodies) const {
+    return surfaces_[bodies.first].geomCount() * surfaces_[bodies.second].geomCount();
+  }
+
+  // Those of their geoms that no <pair> names would touch otherwise.
+  void checkPairs() const {
+    for (const auto& [bodies, named] : named_) {
+      if (named.geoms.size() < geomPairs(bodies)) {
+        document_.fail(*named.last,
+                       std::to_string(named.geoms.size()) + " pairs of geoms of " +
+                           inQuotes(surfaces_[bodies.first].name) + " and " +
+                           inQuotes(surfaces_[bodies.second].name),
+                       "none, or all " + std::to_string(geomPairs(bodies)));
+      }
+    }
   }
 
   // ---- What passes through each other
@@ -217,6 +254,12 @@ class ContactReader {
   MjcfContacts contacts_;
   std::map<std::string, std::size_t> byGeom_;
   std::map<Pair, double> pairs_;  // friction
+  /// What <pair> names of two bodies.
+  struct NamedGeoms {
+    std::set<std::pair<std::string, std::string>> geoms;
+    const XmlElement* last = nullptr;
+  };
+  std::map<Pair, NamedGeoms> named_;
 };
 
 }  // namespace

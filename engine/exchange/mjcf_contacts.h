@@ -24,7 +24,8 @@ enum class FilterParent : unsigned char { kNo, kYes };
 /// Reads <contact>, and what MuJoCo lets through each other: boxes of one body or of bodies without a joint
 /// between them, a body and the one that it is in, <exclude>, and
 /// what contype and conaffinity keep apart; but not what a <pair> names. InputError where a wall would let a
-/// box through, and where no coefficients give each pair its friction (exchange/friction_fit.h).
+/// box through, where pairs name some geoms of two bodies and not others, or differ for them, and where no
+/// coefficients give each pair its friction (exchange/friction_fit.h).
 MjcfContacts readContacts(MjcfDocument& document, const MjcfModel& model, FilterParent filterParent);
 
 }  // namespace careen

@@ -92,14 +92,15 @@ std::vector<MassPart> partsOf(const MjcfDocument& document, const std::vector<Mj
   return parts;
 }
 
-MjcfMass fromGeoms(const std::vector<MassPart>& parts, const MjcfGeom& box) {
+MjcfMass fromGeoms(const std::vector<MassPart>& parts, const MjcfShape& shape) {
+  const MjcfGeom& box = shape.geom;
   MjcfMass result;
   Vec3 weighted = Vec3::Zero();
   for (const MassPart& part : parts) {
     result.mass += part.solid.mass;
     weighted += part.solid.mass * part.geom->position;
   }
-  if (parts.empty() || (parts.size() == 1 && parts[0].geom == &box)) {
+  if (parts.empty() || (parts.size() == 1 && shape.parts.empty() && parts[0].geom->element == box.element)) {
     return result;
   }
   const Vec3 center = weighted / result.mass;
@@ -137,21 +138,21 @@ void keepWithinBounds(const MjcfCompiler& compiler, const Vec3& size, MjcfMass& 
 
 }  // namespace
 
-MjcfMass massOf(MjcfDocument& document, const std::vector<MjcfGeom>& geoms, std::size_t box,
+MjcfMass massOf(MjcfDocument& document, const std::vector<MjcfGeom>& geoms, const MjcfShape& shape,
                 const XmlElement* inertial) {
-  const MjcfGeom& shape = geoms[box];
-  const Vec3 size = halfExtentsOf(shape);
+  const MjcfGeom& box = shape.geom;
+  const Vec3 size = halfExtentsOf(box);
   const bool isGiven = inertialCounts(document, inertial);
   if (!isGiven && document.compiler().inertiaFromGeom == "false") {
-    document.fail(*shape.element, "a box in a body that moves, without <inertial>",
+    document.fail(*box.element, "a box in a body that moves, without <inertial>",
                   "one, as inertiafromgeom is \"false\"");
   }
   if (!isGiven && inertial != nullptr) {
     document.ignore("inertial");
   }
   MjcfMass result =
-      isGiven ? fromInertial(document, shape, *inertial) : fromGeoms(partsOf(document, geoms), shape);
-  const XmlElement& said = isGiven ? *inertial : *shape.element;
+      isGiven ? fromInertial(document, box, *inertial) : fromGeoms(partsOf(document, geoms), shape);
+  const XmlElement& said = isGiven ? *inertial : *box.element;
   // Of <inertial> an attribute is wrong, of geoms what they amount to.
   const auto fail = [&](const char* attribute, const std::string& found, const std::string& expected) {
     if (isGiven) {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "core/math/linear_algebra.h"
 #include "exchange/mjcf_defaults.h"
+#include "exchange/mjcf_shape.h"
 
 namespace careen {
 
@@ -15,12 +15,13 @@ struct MjcfMass {
   std::optional<Mat3> inertia;  ///< [kg m²] about it, along the box's axes; none: of a solid box
 };
 
-/// The mass of a body of which geoms[box] is the box of the scene: of <inertial> if there is one and
-/// <compiler inertiafromgeom> lets it count, else of all geoms of its inertiagrouprange, by their masses or
-/// densities; then within boundmass, boundinertia and balanceinertia. Where the centre of mass is the box's
-/// middle, or the principal axes its axes, to kMjcfCentered of its size and of the inertia's trace, they are
-/// taken to be that. InputError if it lies outside the box, or if no body has that inertia.
-MjcfMass massOf(MjcfDocument& document, const std::vector<MjcfGeom>& geoms, std::size_t box,
+/// The mass of a body that collides as that shape, whose frame is that of `shape.geom`: of <inertial> if
+/// there is one and <compiler inertiafromgeom> lets it count, else of all geoms of its inertiagrouprange, by
+/// their masses or densities; then within boundmass, boundinertia and balanceinertia. Where the centre of
+/// mass is the box's middle, or the principal axes its axes, to kMjcfCentered of its size and of the
+/// inertia's trace, they are taken to be that. InputError if it lies outside the box, or if no body has that
+/// inertia.
+MjcfMass massOf(MjcfDocument& document, const std::vector<MjcfGeom>& geoms, const MjcfShape& shape,
                 const XmlElement* inertial);
 inline constexpr double kMjcfCentered = 1e-9;
 

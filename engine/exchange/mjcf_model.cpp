@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "exchange/mjcf_solid.h"
+#include "exchange/mjcf_shape.h"
 #include "exchange/mjcf_start.h"
 #include "scene/json_tree.h"
 
@@ -107,7 +107,7 @@ class ModelReader {
     const MjcfFrame placed = frame.of(geom.position, geom.turn);
     const bool isPlane = geom.type == "plane";
     if (!isPlane) {
-      checkBox(geom);
+      checkBox(document_, geom);
     }
     const std::string given = geom.name.empty() && !isPlane && body != "world" ? body : geom.name;
     std::string name = uniqueName(given, isPlane ? "wall" : "box");
@@ -197,18 +197,15 @@ class ModelReader {
         document_.ignore(child.name);
       } else if (child.name != "joint" && child.name != "freejoint" && child.name != "site" &&
                  child.name != "body") {
-        document_.fail(child, "<" + child.name + "> in a body that moves", "one box");
+        document_.fail(child, "<" + child.name + "> in a body that moves", "boxes");
       }
     }
-    const std::size_t box = boxOf(body, geoms);
-    surface.geom = geoms[box];
-    surface.frame = frame.of(geoms[box].position, geoms[box].turn);
-    surface.mass = massOf(document_, geoms, box, inertial);
-    for (const MjcfGeom& geom : geoms) {
-      if (!surface.geom.color) {
-        surface.geom.color = geom.color;
-      }
-    }
+    MjcfShape shape =
+        shapeOf(document_, body, geoms, [this](const MjcfGeom& geom) { return collides(geom); });
+    surface.frame = frame.of(shape.geom.position, shape.geom.turn);
+    surface.mass = massOf(document_, geoms, shape, inertial);
+    surface.geom = std::move(shape.geom);
+    surface.parts = std::move(shape.parts);
     surface.name = uniqueName(body.text("name").empty() ? surface.geom.name : body.text("name"), "box");
     if (surface.isJointed()) {
       surface.joint.name = model_.jointNames.unique(surface.joint.name, surface.name);
@@ -223,49 +220,6 @@ class ModelReader {
         readBody(content, {.frame = frame, .box = index});
       }
     }
-  }
-
-  // That of its geoms which collides; if none does, its only box.
-  std::size_t boxOf(const XmlElement& body, const std::vector<MjcfGeom>& geoms) {
-    std::vector<std::size_t> colliding;
-    std::vector<std::size_t> boxes;
-    for (std::size_t i = 0; i < geoms.size(); ++i) {
-      const MjcfGeom& geom = geoms[i];
-      if (geom.type == "plane") {
-        document_.fail(*geom.element, "a plane in a body that moves", "one box");
-      }
-      if (geom.type == "box") {
-        boxes.push_back(i);
-      }
-      if (collides(geom)) {
-        if (!colliding.empty()) {
-          document_.fail(*geom.element, "a second <geom> in a body that moves",
-                         "one box; others must collide with nothing (contype and conaffinity 0)");
-        }
-        colliding.push_back(i);
-      }
-    }
-    const std::vector<std::size_t>& found = colliding.empty() ? boxes : colliding;
-    if (found.size() != 1) {
-      document_.fail(body,
-                     geoms.empty() ? "a body that moves, without a <geom>"
-                                   : "a body that moves, without a <geom> that collides",
-                     "one box");
-    }
-    checkBox(geoms[found[0]]);
-    if (geoms.size() > 1) {
-      document_.ignore("geom that collides with nothing");
-    }
-    return found[0];
-  }
-
-  void checkBox(const MjcfGeom& geom) const {
-    if (geom.type != "box") {
-      const XmlAttribute* const type = geom.element->find("type");
-      document_.tree().fail(type == nullptr ? geom.element->offset : type->offset,
-                            "a <geom> of type " + inQuotes(geom.type), "type=\"box\" or type=\"plane\"");
-    }
-    checkSize(document_, geom, 3);
   }
 
   // settotalmass, of all bodies, those that do not move too.

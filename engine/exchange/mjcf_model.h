@@ -16,9 +16,10 @@
 
 namespace careen {
 
-/// A plane or a box with its friction.
+/// A plane, or a box or boxes of one body, with its friction.
 struct MjcfSurface {
-  MjcfGeom geom;
+  MjcfGeom geom;                     ///< of several boxes, that around them, in the body's frame
+  std::vector<MjcfGeom> parts = {};  ///< of several
   bool movable = false;
   MjcfFrame frame;  ///< world
   std::string name;
@@ -35,6 +36,7 @@ struct MjcfSurface {
   Vec3 angularVelocity = Vec3::Zero();
 
   bool isPlane() const { return geom.type == "plane"; }
+  std::size_t geomCount() const { return parts.empty() ? 1 : parts.size(); }
   bool isJointed() const { return movable && !joint.isFree(); }
 };
 
@@ -82,9 +84,9 @@ struct MjcfModel {
   Vec3 placeOf(const MjcfSite& site) const;
 };
 
-/// Reads <worldbody>, <tendon> and the key frame "start" as MuJoCo does. A body that moves has one box that
-/// collides; it is free, or has one joint to the body that it is in, or none; otherwise InputError. Geoms
-/// that collide with nothing are not among the surfaces, but count for masses.
+/// Reads <worldbody>, <tendon> and the key frame "start" as MuJoCo does. A body that moves has a box or
+/// several that collide; it is free, or has one joint to the body that it is in, or none; otherwise
+/// InputError. Geoms that collide with nothing are not among the surfaces, but count for masses.
 MjcfModel readModel(MjcfDocument& document);
 
 }  // namespace careen

@@ -123,8 +123,9 @@ class ExportGlbInBrowser : public testing::Test {
         const auto elements = found.at(i).at(k).get<std::vector<double>>();
         const Mat4 shown = Eigen::Map<const Mat4>(elements.data());
         if (k < run.world.bodies.size()) {
-          const Pose pose = run.state(k, clock.sceneTime(times[i])).pose;
-          const Mat4 exact = inThree(pose, run.world.bodies[k].halfExtents);
+          const Pose pose = run.boxPoseAt(k, clock.sceneTime(times[i]));
+          const Body& body = run.world.bodies[k];
+          const Mat4 exact = inThree(pose, body.parts.empty() ? body.halfExtents : Vec3(Vec3::Ones()));
           off.add(shown, exact);
           EXPECT_LT(((shown - exact).topLeftCorner<3, 3>().norm()), 1e-3) << "size or handedness";
         } else {
@@ -174,6 +175,21 @@ TEST_F(ExportGlbInBrowser, slowMotionAMovingCameraAndATighterBoundAreHeldToo) {
   const Off off = measure(run, file);
   EXPECT_LE(off.position, 1e-5);
   EXPECT_LE(off.attitude, 1e-5);
+}
+
+TEST_F(ExportGlbInBrowser, bodiesOfSeveralBoxesFollowTheirFrame) {
+  const Trajectory run =
+      record(setupOf(parseScene(R"({ "careen": 1, "duration": 1.5, "gravity": [0, 0, -9.81],
+    "room": { "min": [-2, -2, 0], "max": [2, 2, 3], "open": ["-y", "+z"], "restitution": 0.9 },
+    "boxes": [ { "name": "hammer", "mass": 1, "position": [0, 0, 2], "angular_velocity": [1, 5, 0],
+                 "parts": [ { "half_extents": [0.4, 0.05, 0.05] },
+                            { "half_extents": [0.1, 0.2, 0.1], "position": [0.4, 0, 0] } ] } ] })",
+                                "test")));
+  const GlbFile file = encodeGlb(run);
+  const Off off = measure(run, file);
+  EXPECT_LE(off.position, 1e-4);
+  EXPECT_LE(off.attitude, 1e-4);
+  EXPECT_GT(off.position, 0.2e-4);
 }
 
 }  // namespace

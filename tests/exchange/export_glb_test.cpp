@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/error.h"
 #include "scene/plan.h"
@@ -90,6 +92,46 @@ TEST(ExportGlb, hasTheMeshThatIsDrawnInPlaceOfABox) {
               0.04F);
   }
   EXPECT_NE(glb.json.at("nodes").at(2).at("mesh"), node.at("mesh"));
+}
+
+// One node at the frame's origin; its mesh has the twelve triangles of each part, where that is.
+TEST(ExportGlb, bodyOfSeveralBoxesIsOneMesh) {
+  const Trajectory run = runOf(R"({ "careen": 1, "duration": 1, "boxes": [
+    { "name": "hammer", "mass": 2, "position": [1, 2, 3], "angular_velocity": [0, 3, 1],
+      "parts": [ { "half_extents": [0.5, 0.1, 0.1] },
+                 { "half_extents": [0.1, 0.3, 0.2], "position": [0.5, 0, 0.4], "orientation": { "axis": [0, 0, 1], "angle_deg": 90 } } ] },
+    { "name": "b", "half_extents": [0.1, 0.1, 0.1], "mass": 1, "position": [9, 0, 0] } ] })");
+  const GlbFile file = encodeGlb(run);
+  EXPECT_LE(file.positionError, 1e-4);
+  const Glb glb(file.bytes);
+  const nlohmann::json& node = glb.json.at("nodes").at(1);
+  EXPECT_EQ(node.at("name"), "hammer");
+  EXPECT_EQ(node.at("scale"), nlohmann::json({1, 1, 1}));
+  EXPECT_FLOAT_EQ(node.at("translation").at(2).get<float>(), 3);
+  EXPECT_EQ(glb.json.at("nodes").at(2).at("name"), "b");
+  const nlohmann::json& primitives =
+      glb.json.at("meshes").at(node.at("mesh").get<std::size_t>()).at("primitives");
+  ASSERT_EQ(primitives.size(), 1U);
+  const nlohmann::json& attributes = primitives.at(0).at("attributes");
+  const std::vector<float> positions = glb.floats(attributes.at("POSITION").get<std::size_t>());
+  const std::vector<float> normals = glb.floats(attributes.at("NORMAL").get<std::size_t>());
+  ASSERT_EQ(positions.size(), 2U * 12 * 9);
+  double volume = 0;  // by signed tetrahedra: of both, as if they did not overlap
+  for (std::size_t k = 0; k < positions.size(); k += 9) {
+    std::array<Vec3, 3> corners;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float* const at = positions.data() + k + 3 * c;
+      corners[c] = Vec3(at[0], at[1], at[2]);
+      // By a turn of 90° the second reaches 0.3 along x and 0.1 along y.
+      const bool isHead = k >= 12 * 9;
+      const Vec3 half = isHead ? Vec3(0.3, 0.1, 0.2) : Vec3(0.5, 0.1, 0.1);
+      const Vec3 own = corners[c] - (isHead ? Vec3(0.5, 0, 0.4) : Vec3(0, 0, 0));
+      EXPECT_LT((own.cwiseAbs() - half).norm(), 1e-6);
+      EXPECT_GT(own.dot(Vec3(normals[k], normals[k + 1], normals[k + 2])), 0.09);
+    }
+    volume += corners[0].dot(corners[1].cross(corners[2])) / 6;
+  }
+  EXPECT_NEAR(volume, 8 * (0.5 * 0.1 * 0.1 + 0.1 * 0.3 * 0.2), 1e-6);
 }
 
 TEST(ExportGlb, animatesOnlyWhatMovesInTimeOfTheFilm) {

@@ -19,7 +19,7 @@ MjcfMass massFrom(const std::string& geoms, const std::string& inertial, const s
     read.push_back(defaults.geom(*geom, "main"));
   }
   const auto found = document.sections("inertial");
-  return massOf(document, read, 0, found.empty() ? nullptr : found[0]);
+  return massOf(document, read, {.geom = read[0], .parts = {}}, found.empty() ? nullptr : found[0]);
 }
 const std::string kBox = R"(<geom type="box" size="0.5 1 1.5")";
 

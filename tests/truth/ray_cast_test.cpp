@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -101,6 +103,73 @@ TEST(RayCast, hitsWhatSixRectanglesPerBoxSay) {
   }
   EXPECT_GT(hits, 100'000U);  // measured: 218,000 of 691,200
   EXPECT_LT(doubtful, 10U);
+}
+
+// Bodies of boxes that go through each other: of the first of them that a ray meets, and of each body as if
+// it were alone.
+TEST(RayCast, boxesOfSeveralPartsAreOneThing) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> size(0.1, 1);
+  std::size_t hits = 0;
+  std::size_t counted = 0;
+  std::array<std::size_t, 4> hitsOfPart{};
+  for (int trial = 0; trial < 200; ++trial) {
+    const PixelRays rays(cameraAt(randomIn(random, 6), randomIn(random, 1), 20 + trial % 100), kWidth,
+                         kHeight);
+    std::vector<CastBox> bodies;
+    for (int i = 0; i < 3; ++i) {
+      CastBox& body = bodies.emplace_back(
+          CastBox{.pose = {.position = randomIn(random, 3)}, .halfExtents = Vec3(3, 3, 3)});
+      for (int part = 0; part < 2 + trial % 3; ++part) {
+        const Vec3 turn = randomIn(random, 3);
+        body.parts.push_back(
+            {.pose = {.position = body.pose.position + randomIn(random, 0.8),
+                      .worldFromBody = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()},
+             .halfExtents = Vec3(size(random), size(random), size(random))});
+      }
+    }
+    const CastPicture picture = castRays(rays, bodies, {});
+    std::array<std::int64_t, 3> alone{};
+    std::array<bool, 3> isDoubtful{};
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        Hit first;
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+          Hit own;
+          for (std::size_t part = 0; part < bodies[i].parts.size(); ++part) {
+            const double before = own.depth;
+            castSlowly(bodies[i].parts[part], static_cast<std::int32_t>(i + 1), rays.eye(), rays.offset(x, y),
+                       own);
+            own.face = static_cast<std::uint8_t>(own.face + (own.depth < before ? 6 * part : 0));
+          }
+          alone[i] += own.instance != 0 ? 1 : 0;
+          isDoubtful[i] = isDoubtful[i] || own.margin < 1e-9;
+          const double margin = std::min(first.margin, own.margin);
+          first = own.depth < first.depth ? own : first;
+          first.margin = margin;
+        }
+        if (first.margin < 1e-9) {
+          continue;
+        }
+        const auto place = static_cast<std::size_t>(y * kWidth + x);
+        ASSERT_EQ(picture.instance[place], first.instance) << trial << ' ' << x << ' ' << y;
+        ASSERT_EQ(picture.face[place], first.face) << trial << ' ' << x << ' ' << y;
+        if (first.instance != 0) {
+          ASSERT_NEAR(picture.depth[place], first.depth, 1e-12 * (1 + first.depth));
+          ++hits;
+          ++hitsOfPart.at((first.face - 1U) / 6);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      counted += isDoubtful[i] ? 0 : 1;
+      ASSERT_TRUE(isDoubtful[i] || picture.alone[i] == alone[i]) << trial << ' ' << i;
+      ASSERT_LE(picture.visible[i], picture.alone[i]);
+    }
+  }
+  EXPECT_GT(hits, 50'000U);
+  EXPECT_GT(*std::min_element(hitsOfPart.begin(), hitsOfPart.end()), 3'000U);
+  EXPECT_GT(counted, 590U);  // of 600
 }
 
 TEST(RayCast, raysGoThroughTheMiddlesOfThePixelsOfPictures) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "core/error.h"
 #include "scene/plan.h"
@@ -71,6 +73,28 @@ TEST_F(TruthFilm, explainsIdsCameraAndImpacts) {
   const Vec3 pixel = view.pixelFromWorld(run_.impacts[0].point, 64, 36);
   EXPECT_NEAR(impact["pixel"][0], pixel.x(), 1e-9);
   EXPECT_NEAR(impact["pixel"][1], pixel.y(), 1e-9);
+}
+
+TEST_F(TruthFilm, listsTheBoxesOfABody) {
+  run_ = record(setupOf(parseScene(R"({ "careen": 1, "duration": 0.1, "boxes": [
+    { "name": "hammer", "mass": 4, "position": [1, 2, 3],
+      "parts": [ { "half_extents": [0.5, 0.1, 0.1] },
+                 { "half_extents": [0.1, 0.1, 0.5], "position": [1, 0, 0], "orientation": { "axis": [0, 0, 1], "angle_deg": 90 } } ] } ],
+  "camera": { "eye": [0, -8, 2], "target": [0, 0, 0.5] }, "film": { "size": [64, 36], "fps": 10 } })",
+                                   "test")));
+  writeTruth(run_, settings("0", 1));
+  const nlohmann::json hammer = nlohmann::json::parse(textOf(folder_ / "truth/truth.json"))["boxes"][0];
+  ASSERT_EQ(hammer["parts"].size(), 2U);
+  EXPECT_EQ(hammer["parts"][0]["half_extents"], nlohmann::json({0.5, 0.1, 0.1}));
+  const auto near = [&](const nlohmann::json& found, const Vec3& expected) {
+    const auto numbers = found.get<std::vector<double>>();
+    EXPECT_LT((Vec3(numbers.data()) - expected).norm(), 1e-15) << found;
+  };
+  near(hammer["parts"][0]["position"], Vec3(0, 0, 0));
+  near(hammer["parts"][1]["position"], Vec3(1, 0, 0));
+  near(hammer["parts"][1]["axes"][0], Vec3(0, -1, 0));
+  near(hammer["center"], Vec3(0.5, 0, 0));            // two of 0.04 m³, at 0 and at 1 m
+  near(hammer["half_extents"], Vec3(1.1, 0.1, 0.5));  // of what is around them
 }
 
 TEST_F(TruthFilm, refusesFramesThatAreNotThere) {
