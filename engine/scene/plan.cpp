@@ -244,6 +244,13 @@ Body bodyOf(const SceneBox& box, const Material& material) {
             .mass = box.fixed ? immovable() : massOf(box),
             .material = material,
             .initial = {}};
+  if (!box.parts.empty()) {
+    std::vector<BodyPart> parts;
+    for (const BodyPart& part : box.parts) {
+      parts.push_back(part.seenFrom(box.center));
+    }
+    setParts(body, std::move(parts));
+  }
   body.initial.pose = bodyPose(body, box.pose);
   body.initial.velocity = bodyVelocity(body, box.pose.worldFromBody, box.velocity, box.angularVelocity);
   body.initial.angularMomentum = angularMomentum(body.mass, box.pose.worldFromBody, box.angularVelocity);

@@ -92,7 +92,8 @@ void ContactSystem::closeAll() {
 ContactState ContactSystem::stateOf(const ContactFeature& feature) const {
   const auto a = static_cast<std::size_t>(feature.a);
   const auto b = static_cast<std::size_t>(feature.b);
-  return contactState(feature, kinematics_[a], bodies_[a].shape(), kinematics_[b], bodies_[b].shape());
+  return contactState(feature, kinematics_[a], bodies_[a].shape(feature.boxA), kinematics_[b],
+                      bodies_[b].shape(feature.boxB));
 }
 
 double ContactSystem::touching(std::size_t body) const {

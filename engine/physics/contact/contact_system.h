@@ -26,7 +26,12 @@ struct TouchingBody {
   bool isHeld() const { return isImmovable(body->mass); }
   bool isBox() const { return halfSpace == nullptr; }
   bool isNowhere() const { return halfSpace == &nowhere(); }
-  TouchingShape shape() const { return {body->halfExtents, body->boxCenter, halfSpace}; }
+  /// Of a half-space that, else one of its boxes.
+  TouchingShape shape(int box) const {
+    return isBox() ? shapeOf(*body, box)
+                   : TouchingShape{
+                         .halfExtents = body->halfExtents, .center = body->boxCenter, .halfSpace = halfSpace};
+  }
   const Material& material() const { return isBox() ? body->material : halfSpace->material; }
   BodyState state() const {
     const Mat3 columns = worldFromBody.toRotationMatrix();
@@ -61,7 +66,7 @@ void forCorners(std::span<const TouchingBody> bodies, std::size_t box, const IsN
       ContactFeature feature{.a = static_cast<int>(box),
                              .b = static_cast<int>(b),
                              .material = touching(bodies[box].material(), bodies[b].material())};
-      for (int k = 0; k < kCorners; ++k) {
+      for (int k = 0; k < bodies[box].body->cornerCount(); ++k) {
         feature.onA = corner(*bodies[box].body, k);
         visit(feature, *bodies[b].halfSpace);
       }

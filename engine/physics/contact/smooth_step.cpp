@@ -140,10 +140,10 @@ double SmoothStep::longest() {
         !system_.features()[c].isOfJoint()) {
       const auto a = static_cast<std::size_t>(system_.features()[c].a);
       const auto b = static_cast<std::size_t>(system_.features()[c].b);
-      most = std::min(most, kMostSlip *
-                                std::min(system_.bodies()[a].body->halfExtents.minCoeff(),
-                                         system_.bodies()[b].body->halfExtents.minCoeff()) /
-                                speed);
+      most = std::min(
+          most, kMostSlip *
+                    std::min(system_.bodies()[a].body->thinnest(), system_.bodies()[b].body->thinnest()) /
+                    speed);
     }
     if (system_.modes()[c] == ContactForces::Mode::kSlip) {
       const double rate = system_.slipSpeedRate(c);

@@ -74,7 +74,7 @@ double TimeStepper::longestStep() const {
       most = std::min(most, kStepTurn / turning);
     }
     if (speed > 0) {
-      most = std::min(most, kMostWay * bodies_[i].body->halfExtents.minCoeff() / speed);
+      most = std::min(most, kMostWay * bodies_[i].body->thinnest() / speed);
       first = std::min(first, kFirst * radius / speed);
     }
     if (acceleration_ > 0) {
@@ -267,7 +267,7 @@ double TimeStepper::wayApart() const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const GroupBody& from = step_.end[i];
     const Mat3 turned = end_[i].worldFromBody.toRotationMatrix() - from.worldFromBody.toRotationMatrix();
-    for (int k = 0; k < kCorners; ++k) {
+    for (int k = 0; k < bodies_[i].body->cornerCount(); ++k) {
       most = std::max(most, (end_[i].position - from.position + turned * corner(*bodies_[i].body, k)).norm());
     }
   }

@@ -122,7 +122,7 @@ void settleBody(const Bodies& bodies, Encounter& encounter, std::size_t index, c
                             .departure = std::max(0.0, partingAt(encounter, k).speed),
                             .restitution = contact.material.restitution,
                             .gapRounding = hopRounding(encounter, each, k)};
-    if (!settles(bouncing, body.halfExtents.minCoeff())) {
+    if (!settles(bouncing, body.thinnest())) {
       continue;
     }
     encounter.persists[k] = 1;

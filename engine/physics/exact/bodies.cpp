@@ -316,8 +316,7 @@ void Bodies::predict(int rank) {
                             .body = rank});
   }
   for (const int candidate : around(rank)) {
-    if (mayTouch(world_, body.listed.value, (*this)[candidate].listed.value) &&
-        (!body.steps() || !body.group->seesTo(body.place, candidate))) {
+    if (mayTouch(world_, body.listed.value, (*this)[candidate].listed.value)) {
       takeSooner(first, firstMeeting(body, (*this)[candidate], first ? first->time : end_));
     }
   }

@@ -30,8 +30,8 @@ bool CrowdGroup::enter(Encounter& encounter, int /*rank*/) {
   return false;
 }
 
-bool CrowdGroup::seesTo(std::size_t /*place*/, int rank) const {
-  return has(bodies_[rank]) || !restsOnlySince(bodies_[rank], start_);
+bool CrowdGroup::seesTo(std::size_t /*place*/, int /*box*/, const BoxOf& other) const {
+  return has(bodies_[other.body]) || !restsOnlySince(bodies_[other.body], start_);
 }
 
 // ---- Members.
@@ -146,8 +146,7 @@ void CrowdGroup::enlistAtRest(int rank) {
     for (const int candidate : bodies_.around(reached[k])) {
       const Mover& other = bodies_[candidate];
       if (mayTouch(bodies_.world(), body.listed.value, other.listed.value) &&
-          areTouching(boxAt(body.pose, *body.body), boxAt(other.pose, *other.body),
-                      bodies_.crowds().tolerance)) {
+          areTouching(*body.body, body.pose, *other.body, other.pose, bodies_.crowds().tolerance)) {
         reach(candidate);
       }
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "physics/contact/contact_feature.h"
 #include "physics/geometry/separation.h"
 
 namespace careen {
@@ -80,9 +81,11 @@ Attitude Mover::operator()(double elapsed) const {
           .angularVelocity = rotation->angularVelocityWorld(principal)};
 }
 
-MovingBox Mover::moving(const Instant& clockZero) const {
-  return {.halfExtents = body->halfExtents,
-          .center = body->boxCenter,
+MovingBox Mover::moving(const Instant& clockZero, int box) const {
+  const TouchingShape shape = shapeOf(*body, box);
+  return {.halfExtents = shape.halfExtents,
+          .center = shape.center,
+          .bodyFromBox = shape.bodyFromBox,
           .position = flight.position,
           .velocity = flight.velocity,
           .acceleration = flight.acceleration,
@@ -95,10 +98,17 @@ MovingBox Mover::moving(const Instant& clockZero) const {
           .accelerationBound = bounds.acceleration};
 }
 
-bool areTouching(BoxAt a, BoxAt b, double apart) {
+bool areTouching(const BoxAt& a, const BoxAt& b, double apart) {
   const double within = std::max(apart, touchingWithin(a, b));
   const double reach = a.radius() + b.radius() + within;
   return (a.pose.position - b.pose.position).norm() <= reach && BoxAxes(a, b).gap() <= within;
+}
+
+bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double apart) {
+  bool areAny = false;
+  forBoxes(a, poseA, b, poseB,
+           [&](const BoxAt& boxA, const BoxAt& boxB) { areAny = areAny || areTouching(boxA, boxB, apart); });
+  return areAny;
 }
 
 }  // namespace careen
