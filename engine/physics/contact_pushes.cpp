@@ -219,7 +219,7 @@ void MomentOfContacts::addWalls(int a, double times, std::vector<Pushing>& pushi
   for (std::size_t w = 0; w < world_.walls.size(); ++w) {
     const Wall& wall = world_.walls[w];
     const bool isNear = gapToPlane(boxAt(pose(a), body(a)), wall.normal, wall.offset) <= reach;
-    for (int k = 0; isNear && k < kCorners; ++k) {
+    for (int k = 0; isNear && k < body(a).cornerCount(); ++k) {
       const Vec3 point = corner(body(a), k);
       if (cornerGap(pose(a), point, wall.normal, wall.offset) <= reach) {
         pushing.push_back({.a = a,
@@ -241,38 +241,41 @@ void MomentOfContacts::addBoxes(int a, int b, double times, std::vector<Pushing>
   };
   using Touches = PushedBody::Touches;
   if (at(a).touches == Touches::kInCrowd || at(b).touches == Touches::kInCrowd) {
-    const PileBody boxA = pileBody(body(a), at(a).state);
-    const PileBody boxB = pileBody(body(b), at(b).state);
-    PileManifold manifold;
-    manifold.length = std::min(boxA.length, boxB.length);
-    buildManifold(boxA, boxB, reach, manifold);
-    for (int k = 0; k < manifold.count; ++k) {
-      const PilePoint& point = manifold.points[static_cast<std::size_t>(k)];
-      if (point.gap <= reach) {
-        add(pose(a).position + point.world, manifold.frameOf(k));
+    const PileBody ofA = pileBody(body(a), at(a).state);
+    const PileBody ofB = pileBody(body(b), at(b).state);
+    for (int pair = 0; pair < ofA.partCount() * ofB.partCount(); ++pair) {
+      PileManifold manifold;
+      manifold.boxA = pair / ofB.partCount();
+      manifold.boxB = pair % ofB.partCount();
+      manifold.length = std::min(ofA.length, ofB.length);
+      manifold.reach = reach;
+      buildBetween(ofA, ofB, manifold);
+      for (int k = 0; k < manifold.count; ++k) {
+        const PilePoint& point = manifold.points[static_cast<std::size_t>(k)];
+        if (point.gap <= reach) {
+          add(pose(a).position + point.world, manifold.frameOf(k));
+        }
       }
     }
     return;
   }
-  const BoxAt boxA = boxAt(pose(a), body(a));
-  const BoxAt boxB = boxAt(pose(b), body(b));
-  if (BoxAxes(boxA, boxB).gap() > reach) {
-    return;
-  }
-  const auto relative = [&](const Vec3& armA, const Vec3& armB) {
-    return Vec3(velocityAt(a, pose(a).position + armA) - velocityAt(b, pose(b).position + armB));
+  const auto relative = [&](const Vec3& armA, const Vec3& armB) -> Vec3 {
+    return velocityAt(a, pose(a).position + armA) - velocityAt(b, pose(b).position + armB);
   };
-  const ChosenContact chosen =
-      chosenContact(boxA, boxB, reach, reach, std::max(at(a).slow, at(b).slow), relative);
-  for (const ContactPoint& point : chosen.points) {
-    // One point for both, else their forces would make a torque.
-    add(0.5 * ((pose(a).position + point.armA) + (pose(b).position + point.armB)), frameOf(point.normal));
-  }
+  const double slow = std::max(at(a).slow, at(b).slow);
+  forBoxes(body(a), pose(a), body(b), pose(b), [&](const BoxAt& boxA, const BoxAt& boxB) {
+    if (BoxAxes(boxA, boxB).gap() <= reach) {
+      // One point for both, else their forces would make a torque.
+      for (const ContactPoint& at : chosenContact(boxA, boxB, reach, reach, slow, relative).points) {
+        add(0.5 * ((pose(a).position + at.armA) + (pose(b).position + at.armB)), frameOf(at.normal));
+      }
+    }
+  });
 }
 
 ContactState MomentOfContacts::stateOf(const ContactFeature& feature) const {
   const auto shape = [&](int end) {
-    return end == count() ? touchingBody(nowhere()).shape() : TouchingBody{.body = &body(end)}.shape();
+    return end == count() ? touchingBody(nowhere()).shape(0) : TouchingBody{.body = &body(end)}.shape(0);
   };
   return jointState(feature, kinematics_[static_cast<std::size_t>(feature.a)], shape(feature.a),
                     kinematics_[static_cast<std::size_t>(feature.b)], shape(feature.b));
@@ -343,15 +346,13 @@ Found MomentOfContacts::solve(const Group& group, const std::vector<Pushing>& pu
     const MassProperties& mass = body(member).mass;
     const Load& given = *at(member).given;
     const Mat3 principal = mass.worldFromPrincipal(pose(member).worldFromBody);
-    const Vec3 turning = mass.inverseInertiaBody.cwiseProduct(principal.transpose() * given.torque);
-    for (int k = 0; k < 3; ++k) {
-      problem.inverseMass.push_back(mass.inverseMass);
-      problem.free.push_back(-mass.inverseMass * given.force[k]);
-    }
-    for (int k = 0; k < 3; ++k) {
-      problem.inverseMass.push_back(mass.inverseInertiaBody[k]);
-      problem.free.push_back(-turning[k]);
-    }
+    const auto addThree = [](const Vec3& three, std::vector<double>& to) {
+      to.insert(to.end(), three.begin(), three.end());
+    };
+    addThree(Vec3::Constant(mass.inverseMass), problem.inverseMass);
+    addThree(mass.inverseInertiaBody, problem.inverseMass);
+    addThree(-mass.inverseMass * given.force, problem.free);
+    addThree(-mass.inverseInertiaBody.cwiseProduct(principal.transpose() * given.torque), problem.free);
     scale = std::max(scale, at(member).scale);
   }
   for (const Pushing& each : pushing) {

@@ -157,6 +157,22 @@ TEST(ContactPushes, takeTheForcesOfJointsIntoAccount) {
   }
 }
 
+// A body of two legs and a plate: its eight corners on the floor lie alike on both sides, and bear alike.
+TEST(ContactPushes, ofABodyOfSeveralBoxesAreAtTheCornersOfEach) {
+  World world = onFloor(0.5);
+  Body table = rough(box("table", Vec3(0.5, 0.25, 0.25), 8, Vec3(0, 0, 0.25)), 0.5);
+  setParts(table, {{.halfExtents = Vec3(0.1, 0.25, 0.2), .center = Vec3(-0.4, 0, -0.05)},
+                   {.halfExtents = Vec3(0.1, 0.25, 0.2), .center = Vec3(0.4, 0, -0.05)},
+                   {.halfExtents = Vec3(0.5, 0.25, 0.05), .center = Vec3(0, 0, 0.2)}});
+  world.bodies = {table};
+  const std::vector<ContactPush> pushes = contactPushes(world, atRest(world), 0);
+  ASSERT_EQ(pushes.size(), 8U);
+  for (const ContactPush& push : pushes) {
+    EXPECT_LT((push.force - Vec3(0, 0, 10)).norm(), 1e-12);
+    EXPECT_NEAR(std::fabs(std::fabs(push.point.x()) - 0.4), 0.1, 1e-15);
+  }
+}
+
 // Nothing holds it: so much is left of its weight.
 TEST(ContactPushes, tellWhatNothingGives) {
   World world = onFloor(0.5);
