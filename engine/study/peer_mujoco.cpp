@@ -58,7 +58,8 @@ std::string attribute(const char* name, const std::string& value) {
   return std::string(" ") + name + "=\"" + value + "\"";
 }
 
-std::string boxText(const Body& body, const std::string& name) {
+// Its geometries are named by their numbers, from this one on.
+std::string boxText(const Body& body, std::size_t geometry) {
   std::string text = "<body" + attribute("pos", numbers(body.initial.pose.position)) +
                      attribute("quat", numbers(Quat(body.initial.pose.worldFromBody).normalized())) + ">";
   if (!isImmovable(body.mass)) {
@@ -68,7 +69,7 @@ std::string boxText(const Body& body, const std::string& name) {
   }
   for (int part = 0; part < body.partCount(); ++part) {
     const Pose inBody = partPose(body, part, boxPose(body, Pose{}));
-    text += "<geom type=\"box\"" + (part == 0 ? attribute("name", name) : std::string()) +
+    text += "<geom type=\"box\"" + attribute("name", std::to_string(geometry++)) +
             attribute("pos", numbers(inBody.position)) +
             (body.parts.empty() ? std::string()
                                 : attribute("quat", numbers(Quat(inBody.worldFromBody).normalized()))) +
@@ -97,22 +98,24 @@ std::string textOf(const World& world, bool areNamed, int contacts) {
             attribute("njmax", std::to_string(kMostRows * contacts)) + "/>";
   }
   text += "<worldbody>";
-  std::size_t geometries = 0;
+  std::vector<const Body*> bodyOf;  // by geometry; of a wall none
   for (const Wall& wall : world.walls) {
-    text += R"(<geom type="plane" size="0 0 1")" + attribute("name", std::to_string(geometries++)) +
+    text += R"(<geom type="plane" size="0 0 1")" + attribute("name", std::to_string(bodyOf.size())) +
             attribute("pos", numbers(Vec3(wall.offset * wall.normal))) +
             attribute("zaxis", numbers(wall.normal)) + "/>";
+    bodyOf.push_back(nullptr);
   }
   for (const Body& body : world.bodies) {
-    text += boxText(body, std::to_string(geometries++));
+    text += boxText(body, bodyOf.size());
+    bodyOf.insert(bodyOf.end(), static_cast<std::size_t>(body.partCount()), &body);
   }
   text += "</worldbody><contact>";
   const auto isFixed = [&](std::size_t geometry) {
-    return geometry < world.walls.size() || isImmovable(world.bodies[geometry - world.walls.size()].mass);
+    return bodyOf[geometry] == nullptr || isImmovable(bodyOf[geometry]->mass);
   };
-  for (std::size_t a = 0; areNamed && a < geometries; ++a) {
+  for (std::size_t a = 0; areNamed && a < bodyOf.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      if (!isFixed(a) || !isFixed(b)) {
+      if (bodyOf[a] != bodyOf[b] && !(isFixed(a) && isFixed(b))) {
         text +=
             "<pair" + attribute("geom1", std::to_string(a)) + attribute("geom2", std::to_string(b)) + "/>";
       }
@@ -148,7 +151,7 @@ class MujocoEngine : public Peer::Engine {
       materials_.push_back(wall.material);
     }
     for (const Body& body : world.bodies) {
-      materials_.push_back(body.material);
+      materials_.insert(materials_.end(), static_cast<std::size_t>(body.partCount()), body.material);
     }
     build(0);
     for (const Body& body : world.bodies) {
@@ -329,7 +332,7 @@ class MujocoEngine : public Peer::Engine {
   const World& world_;
   std::unique_ptr<mjModel, Delete> model_;
   std::unique_ptr<mjData, Delete> data_;
-  std::vector<Material> materials_;  // of the geometries: walls, then bodies
+  std::vector<Material> materials_;  // of the geometries: walls, then boxes of bodies
   std::vector<int> bodies_;          // the place of each among those that move
   std::vector<MassProperties> masses_;
   bool isBest_;

@@ -39,7 +39,8 @@ class OdeEngine : public Peer::Engine {
     }
     for (const Wall& wall : world.walls) {
       const Vec3& n = wall.normal;
-      name(dCreatePlane(space_.get(), n.x(), n.y(), n.z(), wall.offset), wall.material);
+      dGeomSetData(dCreatePlane(space_.get(), n.x(), n.y(), n.z(), wall.offset),
+                   &materials_.emplace_back(wall.material));
     }
     for (const Joint& joint : world.joints) {
       add(joint);
@@ -87,18 +88,19 @@ class OdeEngine : public Peer::Engine {
       dBodySetLinearVel(id, initial.velocity.x(), initial.velocity.y(), initial.velocity.z());
       dBodySetAngularVel(id, spin.x(), spin.y(), spin.z());
     }
+    Material& material = materials_.emplace_back(body.material);
     for (int part = 0; part < body.partCount(); ++part) {
-      addGeom(body, part, id);
+      addGeom(body, part, material, id);
     }
     bodies_.push_back(id);
     masses_.push_back(body.mass);
   }
 
   // The first places the body.
-  void addGeom(const Body& body, int part, dBodyID id) {
+  void addGeom(const Body& body, int part, Material& material, dBodyID id) {
     const Vec3& half = partHalfExtents(body, part);
     dxGeom* const box = dCreateBox(space_.get(), 2 * half.x(), 2 * half.y(), 2 * half.z());
-    name(box, body.material);
+    dGeomSetData(box, &material);
     const Pose& pose = body.initial.pose;
     const Pose inBody = partPose(body, part, boxPose(body, Pose{}));
     const Pose placed = id != nullptr ? pose : partPose(body, part, boxPose(body, pose));
@@ -171,12 +173,8 @@ class OdeEngine : public Peer::Engine {
     return static_cast<int>(static_cast<const Material*>(dGeomGetData(geom)) - materials_.data());
   }
 
-  void name(dGeomID geom, const Material& material) {
-    dGeomSetData(geom, &materials_.emplace_back(material));
-  }
-
   void touch(dGeomID a, dGeomID b) {
-    if ((dGeomGetBody(a) == nullptr && dGeomGetBody(b) == nullptr) ||
+    if ((dGeomGetBody(a) == nullptr && dGeomGetBody(b) == nullptr) || placeOf(a) == placeOf(b) ||
         !mayTouch(scene_, placeOf(a), placeOf(b))) {
       return;
     }

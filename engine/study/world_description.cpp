@@ -22,6 +22,11 @@ Json boxOf(const Body& body) {
               {"friction", body.material.friction},
               {"position", listOf(body.initial.pose.position)},
               {"orientation", listOf(body.initial.pose.worldFromBody)}};
+  for (const BodyPart& part : body.parts) {
+    box["parts"].push_back({{"half_extents", listOf(part.halfExtents)},
+                            {"middle", listOf(part.middle())},
+                            {"orientation", listOf(part.bodyFromPart)}});
+  }
   box["fixed"] = isImmovable(body.mass);
   if (!isImmovable(body.mass)) {
     box["mass"] = body.mass.mass;

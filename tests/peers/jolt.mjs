@@ -78,15 +78,34 @@ class Moving {
     return this.add(settings, wall);
   }
 
+  // About the body's centre of mass, wherever Jolt takes that of the shape to be.
+  shapeOf(box, now) {
+    const {Jolt} = this;
+    const boxOf = ({half_extents}) => {
+      const radius = this.isBest ? 0 : Math.min(0.05, ...half_extents);  // convex radius, 0.05 as shipped
+      return new Jolt.BoxShape(now.vec3(half_extents), radius);
+    };
+    const centered = (shape, [x, y, z]) => new Jolt.OffsetCenterOfMassShape(shape, now.vec3([-x, -y, -z]));
+    if (box.parts) {
+      const all = now.keep(new Jolt.StaticCompoundShapeSettings());
+      for (const part of box.parts) {
+        all.AddShapeShape(now.vec3(part.middle), now.quat(part.orientation), boxOf(part), 0);
+      }
+      const shape = all.Create().Get();
+      const center = shape.GetCenterOfMass();
+      return centered(shape, [center.GetX(), center.GetY(), center.GetZ()]);
+    }
+    if (box.middle.every((x) => x === 0)) {
+      return boxOf(box);
+    }
+    const place = now.keep(
+        new Jolt.RotatedTranslatedShapeSettings(now.vec3(box.middle), now.quat([1, 0, 0, 0]), boxOf(box)));
+    return centered(place.Create().Get(), box.middle);
+  }
+
   addBox(box, now) {
     const {Jolt} = this;
-    const radius = this.isBest ? 0 : Math.min(0.05, ...box.half_extents);  // convex radius, 0.05 as shipped
-    const middle = now.vec3(box.middle);
-    let shape = new Jolt.BoxShape(now.vec3(box.half_extents), radius);
-    if (box.middle.some((x) => x !== 0)) {
-      const place = now.keep(new Jolt.RotatedTranslatedShapeSettings(middle, now.quat([1, 0, 0, 0]), shape));
-      shape = new Jolt.OffsetCenterOfMassShape(place.Create().Get(), now.vec3(box.middle.map((x) => -x)));
-    }
+    const shape = this.shapeOf(box, now);
     const settings = now.keep(new Jolt.BodyCreationSettings(
         shape, now.rvec3(box.position), now.quat(box.orientation),
         box.fixed ? Jolt.EMotionType_Static : Jolt.EMotionType_Dynamic, box.fixed ? kFixed : kMoving));

@@ -2,7 +2,7 @@
 // have the stiffness that MuJoCo gives those that do not. The same as engine/study/peer_mujoco.cpp.
 import loadMujoco from "@mujoco/mujoco";
 
-import {inFrameOf, rotated, touching} from "./vectors.mjs";
+import {inFrameOf, partsOf, rotated, touching} from "./vectors.mjs";
 
 // MuJoCo has no coefficient of restitution, but springs in contacts whose damping can be chosen. This is the damping ratio
 // of one that pushes but never pulls and gives back the part e of the approach: ln e = -2 ζ acos ζ / sqrt(1 - ζ²), and its
@@ -36,27 +36,33 @@ function spring(restitution, constant) {
 // Of the coefficients the first two are sliding's; without any, a contact has one dimension.
 const dimensions = (friction) => `condim="${friction > 0 ? 3 : 1}"`;
 
-function boxText(box, name) {
+// Its geometries are named by their numbers, from this one on.
+function boxText(box, first) {
   const inertial = box.fixed ? "" : `<freejoint/><inertial pos="0 0 0" mass="${box.mass}"
     diaginertia="${box.moments.join(" ")}" quat="${box.axes.join(" ")}"/>`;
-  return `<body pos="${box.position.join(" ")}" quat="${box.orientation.join(" ")}">${inertial}<geom type="box"
-    name="${name}" pos="${box.middle.join(" ")}" size="${box.half_extents.join(" ")}" ${dimensions(box.friction)}
-    friction="${box.friction} 0 0"/></body>`;
+  const geometries = partsOf(box).map((part, k) => `<geom type="box" name="${first + k}" pos="${part.middle.join(" ")}"
+    quat="${part.orientation.join(" ")}" size="${part.half_extents.join(" ")}" ${dimensions(box.friction)}
+    friction="${box.friction} 0 0"/>`);
+  return `<body pos="${box.position.join(" ")}" quat="${box.orientation.join(" ")}">${inertial}${geometries.join("")}
+    </body>`;
 }
+
+// What each geometry belongs to.
+const ownersIn = (world) => [...world.walls, ...world.boxes.flatMap((box) => partsOf(box).map(() => box))];
 
 // The scene as MJCF. Geometries are named by their numbers, walls first. MuJoCo has its own ways to mix two materials: where
 // they differ, each pair is named and told its own.
 function modelText(world) {
-  const all = [...world.walls, ...world.boxes];
+  const all = ownersIn(world);
   const walls = world.walls.map((wall, k) => `<geom type="plane" size="0 0 1" name="${k}"
     pos="${wall.normal.map((x) => x * wall.offset).join(" ")}" zaxis="${wall.normal.join(" ")}"
     ${dimensions(wall.friction)} friction="${wall.friction} 0 0"/>`);
-  const boxes = world.boxes.map((box, k) => boxText(box, world.walls.length + k));
+  const boxes = world.boxes.map((box) => boxText(box, all.indexOf(box)));
   const pairs = [];
   if (all.some((each) => each.friction !== all[0].friction || each.restitution !== all[0].restitution)) {
     all.forEach((a, i) => all.slice(0, i).forEach((b, j) => {
       const isFixed = (geometry) => geometry.normal !== undefined || geometry.fixed;
-      if (!isFixed(a) || !isFixed(b)) {
+      if (a !== b && !(isFixed(a) && isFixed(b))) {
         const friction = touching(a, b).friction;
         pairs.push(`<pair geom1="${i}" geom2="${j}" ${dimensions(friction)} friction="${friction} ${friction} 0 0 0"/>`);
       }
@@ -70,7 +76,7 @@ class Moving {
   constructor(mujoco, world, isBest) {
     this.mujoco = mujoco;
     this.isBest = isBest;
-    this.materials = [...world.walls, ...world.boxes];
+    this.materials = ownersIn(world);
     this.model = mujoco.MjModel.from_xml_string(modelText(world));
     this.data = new mujoco.MjData(this.model);
     if (isBest) {

@@ -1,6 +1,8 @@
 // Rapier as WebAssembly, in floats. All settings stay as it ships them, except what a world defines.
 import RAPIER from "@dimforge/rapier3d-compat";
 
+import {partsOf} from "./vectors.mjs";
+
 const vector = ([x, y, z]) => ({x, y, z});
 const quaternion = ([w, x, y, z]) => ({w, x, y, z});
 
@@ -21,8 +23,11 @@ function addBox(world, box, isBest) {
     description.setCanSleep(false);
   }
   const body = world.createRigidBody(description);
-  const shape = RAPIER.ColliderDesc.cuboid(...box.half_extents).setTranslation(...box.middle).setDensity(0);
-  world.createCollider(withMaterial(shape, box), body);
+  for (const part of partsOf(box)) {
+    const shape = RAPIER.ColliderDesc.cuboid(...part.half_extents).setTranslation(...part.middle)
+        .setRotation(quaternion(part.orientation)).setDensity(0);
+    world.createCollider(withMaterial(shape, box), body);
+  }
   return body;
 }
 

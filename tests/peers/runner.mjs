@@ -13,12 +13,13 @@
 //   {"seconds": 0.0123}
 //
 // A box's frame has its origin at the centre of mass and its axes along the box's edges; "middle" is the box's in that
-// frame, and "axes" the quaternion, w first, of the principal axes of its "moments" in it. Other vectors are in the
-// world's frame. A pair has the larger restitution of the two and the root of the product of their frictions. Steps are
-// equal between two times, and no longer than "step". The table has the poses at these times, in the columns of tables
-// of poses that careen reads. "seconds" is the time of cores that it took to set up the world, to step and to read the
-// states. Where there is no answer it is {"failure": "why"}. The empty question {} is answered by {} once the engine is
-// loaded.
+// frame, and "axes" the quaternion, w first, of the principal axes of its "moments" in it. A body of several boxes has
+// "parts", each with "half_extents", "middle" and "orientation" in that frame; "half_extents" and "middle" of its own are
+// those of the box around them. Other vectors are in the world's frame. A pair has the larger restitution of the two
+// and the root of the product of their frictions. Steps are equal between two times, and no longer than "step". The
+// table has the poses at these times, in the columns of tables of poses that careen reads. "seconds" is the time of
+// cores that it took to set up the world, to step and to read the states. Where there is no answer it is
+// {"failure": "why"}. The empty question {} is answered by {} once the engine is loaded.
 //
 // ENGINE.mjs has the engine: load() gives a function feed(world, isBest), and that an object with step(h), state(i) and
 // end().

@@ -21,3 +21,7 @@ export const touching = (a, b) => ({
   restitution: Math.max(a.restitution, b.restitution),
   friction: Math.sqrt(a.friction * b.friction),
 });
+
+// The boxes of a body, as it has several or is one.
+export const partsOf = (box) =>
+    box.parts ?? [{half_extents: box.half_extents, middle: box.middle, orientation: [1, 0, 0, 0]}];

@@ -18,12 +18,15 @@
 #include "core/system/scratch_folder.h"
 #include "physics/attitude/torque_free_rotation.h"
 #include "physics/world/given_inertia.h"
+#include "scene/plan.h"
+#include "scene/scene_reader.h"
 #include "study/case.h"
 #include "study/given_contestant.h"
 #include "study/measuring.h"
 #include "support/article_equations.h"
 #include "support/given_tables.h"
 #include "support/physics_worlds.h"
+#include "trajectory/trajectory.h"
 
 namespace careen {
 namespace {
@@ -132,6 +135,56 @@ TEST_F(Peers, layLoadedBoxesOnTheirFaces) {
   forEach([&](const Contestant& peer) {
     const BodyState at = after(peer, world, 1, 1.0 / 240)[0];
     EXPECT_LT((boxPose(world.bodies[0], at.pose).position - Vec3(0, 0, 0.1)).norm(), 0.01);
+  });
+}
+
+// Free flight of a body of several boxes, turned against each other: as in exact motion, but for errors of
+// first order in the step.
+TEST_F(Peers, flyBodiesOfSeveralBoxes) {
+  const Trajectory exact =
+      record(setupOf(parseScene(R"({ "careen": 1, "duration": 1, "gravity": [0, 0, -9.81],
+    "boxes": [ { "name": "hammer", "mass": 2, "position": [0, 0, 1], "velocity": [1, 2, 3], "angular_velocity": [0.5, 0.2, 1],
+      "orientation": { "axis": [1, 2, 3], "angle_deg": 50 },
+      "parts": [ { "half_extents": [0.5, 0.05, 0.05] },
+                 { "half_extents": [0.1, 0.3, 0.2], "position": [0.5, 0, 0.1], "orientation": { "axis": [1, 0, 1], "angle_deg": 20 } } ] } ] })",
+                                "test")));
+  const BodyState expected = exact.state(0, 1);
+  forEach([&](const Contestant& peer) {
+    ASSERT_EQ(peer.refuses(exact.world), "");
+    const auto error = [&](double dt) {
+      const BodyState at = after(peer, exact.world, 1, dt)[0];
+      return std::max(angleBetween(expected.pose.worldFromBody, at.pose.worldFromBody),
+                      (at.pose.position - expected.pose.position).norm());
+    };
+    std::cout << peer.name() << ": " << error(1.0 / 960) << '\n';
+    EXPECT_LT(error(1.0 / 960), 0.01);
+    EXPECT_LT(error(1.0 / 1920), 0.6 * error(1.0 / 960));
+  });
+}
+
+// A gate comes to stand on its legs, over a fixed step with a pillar that the box around the gate would meet;
+// a cube, on the step beside the pillar. Materials differ, so that pairs are named where an engine needs it.
+TEST_F(Peers, layBodiesOfSeveralBoxesOnTheirFeet) {
+  const RunSetup setup = setupOf(parseScene(R"({ "careen": 1, "duration": 1, "gravity": [0, 0, -9.81],
+    "walls": [ { "name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1], "friction": 0.4 } ],
+    "boxes": [
+      { "name": "gate", "mass": 3, "position": [0, 0, 0.33], "friction": 0.5,
+        "parts": [ { "half_extents": [0.05, 0.3, 0.3], "position": [0.4, 0, 0] },
+                   { "half_extents": [0.05, 0.3, 0.3], "position": [-0.4, 0, 0] },
+                   { "half_extents": [0.45, 0.3, 0.05], "position": [0, 0, 0.35] } ] },
+      { "name": "step", "fixed": true, "position": [0, 0, 0], "friction": 0.3,
+        "parts": [ { "half_extents": [0.2, 0.2, 0.05], "position": [0, 0, 0.05] },
+                   { "half_extents": [0.05, 0.05, 0.1], "position": [0, 0, 0.2] } ] },
+      { "name": "cube", "half_extents": [0.05, 0.05, 0.05], "mass": 0.5, "position": [0.13, 0.13, 0.17], "friction": 0.6 } ] })",
+                                            "test"));
+  forEach([&](const Contestant& peer) {
+    const std::vector<BodyState> states = after(peer, setup.world, 1, 1.0 / 480);
+    const Vec3 gate = boxPose(setup.world.bodies[0], states[0].pose).position;
+    std::cout << peer.name() << ": gate " << gate.transpose() << " cube "
+              << states[2].pose.position.transpose() << '\n';
+    EXPECT_LT((gate - Vec3(0, 0, 0.3)).norm(), 0.005);
+    EXPECT_LT(angleBetween(states[0].pose.worldFromBody, Mat3::Identity()), 0.01);
+    EXPECT_LT((states[2].pose.position - Vec3(0.13, 0.13, 0.15)).norm(), 0.005);
   });
 }
 

@@ -76,6 +76,24 @@ TEST(WorldDescription, saysWhereTheMomentsPoint) {
   EXPECT_LT((axes * moments.asDiagonal() * axes.transpose() - tensor).norm(), 1e-14);
 }
 
+// A part turned by 90° about z whose middle is at (0, 2, 0) along its own axes: at (−2, 0, 0) in the body's.
+TEST(WorldDescription, listsTheBoxesOfABody) {
+  World world;
+  world.bodies = {makeBox({})};
+  EXPECT_FALSE(descriptionOf(world)["boxes"][0].contains("parts"));
+  BodyPart turned{.halfExtents = Vec3(0.5, 0.25, 1), .center = Vec3(0, 2, 0), .turned = true};
+  turned.bodyFromPart << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  setParts(world.bodies[0], {{.halfExtents = Vec3(1, 2, 3), .center = Vec3(0, 0, 1)}, turned});
+  const Described said = descriptionOf(world);
+  const Described& parts = said["boxes"][0]["parts"];
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].dump(),
+            R"({"half_extents":[1.0,2.0,3.0],"middle":[0.0,0.0,1.0],"orientation":[1.0,0.0,0.0,0.0]})");
+  EXPECT_EQ(parts[1]["half_extents"].dump(), "[0.5,0.25,1.0]");
+  EXPECT_EQ(parts[1]["middle"].dump(), "[-2.0,0.0,0.0]");
+  EXPECT_NEAR(parts[1]["orientation"][3].get<double>(), std::sqrt(0.5), 1e-15);
+}
+
 TEST(WorldDescription, saysOfFixedBoxesOnlyWhereTheyAre) {
   World world;
   world.bodies = {makeBox({.name = "table"})};

@@ -18,8 +18,8 @@ constexpr double kFirstProximal = 0x1p-10;
 constexpr double kLessProximal = 0x1p-4;
 constexpr double kMuchLessProximal = 0x1p-10;
 constexpr double kLastProximal = 0x1p-30;
-constexpr double kOfLeft = 0x1p-10;  // [1] of what is left: so well it is known
-constexpr double kStalls = 0.75;     // [1] of what was left
+constexpr double kOfLeft = 0x1p-10;   // [1] of what is left: so well it is known
+constexpr double kHardlyLess = 0.75;  // [1] of what was left
 constexpr double kSolved = 0x1p-46;
 constexpr int kMostCentres = 24;
 constexpr int kMostSteps = 64;
@@ -33,7 +33,7 @@ struct NearestForce {
 };
 
 NearestForce onRay(const Force& ray, const Force& given) {
-  const double share = dot(ray, given) / ray.squaredNorm();
+  const double share = careen::dot(ray, given) / ray.squaredNorm();
   return share < 0 ? NearestForce{}
                    : NearestForce{.force = share * ray, .change = ray * ray.transpose() / ray.squaredNorm()};
 }
@@ -158,7 +158,7 @@ DualOfForces::At DualOfForces::at(const Vector& motion) {
   }
   const Vector way = motion - centre_;
   // Of a set that is no cone, ½|λ|² is not what is conjugate to its distance: λ·Jᵀy − ½|λ|².
-  return {.value = dot(forces_, given) - 0.5 * forces_.squaredNorm() - dot(wanted_, motion) +
+  return {.value = careen::dot(forces_, given) - 0.5 * forces_.squaredNorm() - careen::dot(wanted_, motion) +
                    0.5 * proximal_ * way.squaredNorm(),
           .slope = matrix_ * forces_ - wanted_ + proximal_ * way};
 }
@@ -190,7 +190,7 @@ bool DualOfForces::step() {
     return false;
   }
   const Vector way = factors.solve(Vector(-now_.slope));
-  const double slope = dot(now_.slope, way);
+  const double slope = careen::dot(now_.slope, way);
   double part = 1;
   for (int halving = 0; halving < kMostHalvings; ++halving, part /= 2) {
     const Vector there = motion_ + part * way;
@@ -218,7 +218,7 @@ LeastForces DualOfForces::solve() {
     for (int steps = 0; steps < kMostSteps && step(); ++steps) {
     }
     const double left = (matrix_ * forces_ - wanted_).norm();
-    const bool stalls = left > kStalls * last;
+    const bool stalls = left > kHardlyLess * last;
     if (left <= kSolved || (stalls && proximal_ <= kLastProximal)) {
       break;
     }
