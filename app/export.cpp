@@ -16,6 +16,7 @@
 #include "parsed.h"
 #include "run.h"
 #include "scene/scene_reader.h"
+#include "study/force_plot.h"
 
 namespace careen {
 namespace {
@@ -25,6 +26,7 @@ struct ExportOptions {
   std::filesystem::path output;
   std::optional<double> within;
   std::optional<double> every;  // [s]
+  bool forces = false;
   SceneOfTable scene;
   AuditChoice audit;
 };
@@ -71,6 +73,10 @@ void check(const ExportOptions& options, ExportOption taken) {
   if (options.within) {
     parsed("--within", *options.within, checkGlbError);
   }
+  if (options.forces && taken != ExportOption::kEvery) {
+    throw InputError("--forces: found the file " + options.output.string() +
+                     ", which has no rows; expected a table, .svg or .png");
+  }
   if (isSameFile(options.output, options.source)) {
     throw InputError("--out: found the run itself, " + options.output.string() + ", expected another file");
   }
@@ -90,6 +96,7 @@ void writeRun(const ExportOptions& options, const Exporter& exporter, const std:
   ExportSettings settings{.program = "careen " CAREEN_VERSION};
   settings.within = options.within.value_or(settings.within);
   settings.every = options.every.value_or(settings.every);
+  settings.table = options.forces ? ExportTable::kForces : ExportTable::kPoses;
   const ExportNotes notes =
       exporter.write(run.trajectory, settings, [&file](std::string_view text) { file.write(text); });
   file.commit();
@@ -98,7 +105,25 @@ void writeRun(const ExportOptions& options, const Exporter& exporter, const std:
   }
 }
 
+bool isPlot(const std::filesystem::path& file) {
+  return file.extension() == ".svg" || file.extension() == ".png";
+}
+
+// As both kinds of picture.
+ExitCode plotForces(const ExportOptions& options, const std::stop_token& stop) {
+  check(options, ExportOption::kEvery);
+  Run run = loadRun(options.source, {}, options.scene, stop);
+  auditRun(run, options.audit, stop);
+  const std::filesystem::path stem = options.output.parent_path() / options.output.stem();
+  drawPlot(forcePlot(run.trajectory, options.every.value_or(ExportSettings{}.every)), stem);
+  std::cout << "written      " << printableName(stem.string()) << ".svg, .png\n";
+  return ExitCode::kDone;
+}
+
 ExitCode exportCommand(const ExportOptions& options, const std::stop_token& stop) {
+  if (options.forces && isPlot(options.output)) {
+    return plotForces(options, stop);
+  }
   const Exporter* const exporter = exporterFor(options);
   check(options, exporter != nullptr ? exporter->option : ExportOption::kNone);
   if (exporter != nullptr) {
@@ -126,6 +151,8 @@ void addExport(const CommandLine& commandLine) {
   command.add("--within", options->within,
               "How far a .glb may be off between its keys, in m and rad (default: 1e-4)");
   command.add("--every", options->every, "Time between two poses of a table [s] (default: 1/60)");
+  command.addFlag("--forces", options->forces,
+                  "The forces of contact in place of poses, as a table, or as a plot: .svg and .png");
   options->scene.addTo(command);
   options->audit.addTo(command);
   command.runs([options](const std::stop_token& stop) { return exportCommand(*options, stop); });

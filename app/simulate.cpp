@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "core/characters.h"
 #include "core/system/file.h"
+#include "exchange/exporters.h"
 #include "report.h"
 #include "run.h"
 #include "simulation_progress.h"
@@ -33,6 +34,7 @@ struct SimulateOptions {
   std::filesystem::path impacts;
   std::filesystem::path joints;
   std::filesystem::path energy;
+  std::filesystem::path forces;
   std::filesystem::path report;
   std::string log = "text";
   bool verbose = false;
@@ -70,7 +72,8 @@ void checkOutputs(const std::filesystem::path& source, const std::filesystem::pa
   for (const auto& [option, path] :
        {std::pair("--out", output), std::pair("--poses", options.poses), std::pair("--npz", options.npz),
         std::pair("--impacts", options.impacts), std::pair("--joints", options.joints),
-        std::pair("--energy", options.energy), std::pair("--report", options.report)}) {
+        std::pair("--energy", options.energy), std::pair("--forces", options.forces),
+        std::pair("--report", options.report)}) {
     for (const auto& [what, other] : known) {
       if (!path.empty() && isSameFile(path, other)) {
         throw InputError(std::string(option) + ": found " + path.string() + ", which is " + what +
@@ -90,8 +93,9 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
       options.output.empty() ? std::filesystem::path(source.stem().string() + ".careen") : options.output;
   checkOutputs(source, output, options);
   if (options.every && options.poses.empty() && options.npz.empty() && options.joints.empty() &&
-      options.energy.empty()) {
-    throw InputError("--every: found none of --poses, --npz, --joints and --energy, expected one of them");
+      options.energy.empty() && options.forces.empty()) {
+    throw InputError(
+        "--every: found none of --poses, --npz, --joints, --energy and --forces, expected one of them");
   }
   const bool logsJson = options.log == "json";
   SimulationProgress progress(logsJson);
@@ -108,6 +112,11 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   outputs.add(options.impacts, [&](const TextSink& sink) { writeImpactsCsv(run.trajectory, sink); });
   outputs.add(options.joints, [&](const TextSink& sink) { writeJointsCsv(run.trajectory, every, sink); });
   outputs.add(options.energy, [&](const TextSink& sink) { writeEnergyCsv(run.trajectory, every, sink); });
+  outputs.add(options.forces, [&](const TextSink& sink) {
+    const Exporter& exporter =
+        options.forces.extension() == kNpzExporter.suffix ? kNpzExporter : kCsvExporter;
+    exporter.write(run.trajectory, {.every = every, .table = ExportTable::kForces}, sink);
+  });
   outputs.add(options.report, [&](const TextSink& sink) { sink(runReportText(run, stopwatch.seconds())); });
   outputs.commit();
 
@@ -115,7 +124,7 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   printSummary(summary, run, stopwatch.seconds(), options.verbose);
   const char* between = "files        ";
   for (const std::filesystem::path& file : {output, options.poses, options.npz, options.impacts,
-                                            options.joints, options.energy, options.report}) {
+                                            options.joints, options.energy, options.forces, options.report}) {
     if (!file.empty()) {
       summary << between << printableName(file.string());
       between = ", ";
@@ -138,8 +147,10 @@ void addSimulate(const CommandLine& commandLine) {
   command.add("--joints", options->joints, "Table of angles, ways, rates and efforts of joints (CSV)");
   command.add("--energy", options->energy,
               "Table of energies, of what was given and lost by cause, and of momenta (CSV)");
+  command.add("--forces", options->forces,
+              "Table of the forces of contact, point by point (.npz: NPZ, else CSV)");
   command.add("--every", options->every,
-              "Time between two rows of --poses, --npz, --joints and --energy [s] (default: 1/60)");
+              "Time between two rows of --poses, --npz, --joints, --energy and --forces [s] (default: 1/60)");
   command.add("--impacts", options->impacts, "Table of impacts (CSV)");
   command.add("--report", options->report, "What was modelled, speed and error (JSON)");
   command

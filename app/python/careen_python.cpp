@@ -15,6 +15,7 @@
 
 namespace py = pybind11;
 using careen::v1::Energy;
+using careen::v1::Force;
 using careen::v1::Image;
 using careen::v1::Impact;
 using careen::v1::JointReading;
@@ -187,37 +188,63 @@ py::dict energiesOf(const Run& run, const Times& times) {
   return found;
 }
 
-py::dict impactsOf(const Run& run) {
-  const std::vector<Impact>& impacts = run.impacts();
-  const auto numbers = [&](auto&& of) {
-    py::array_t<double> array(static_cast<py::ssize_t>(impacts.size()));
-    std::transform(impacts.begin(), impacts.end(), array.mutable_data(), of);
+// Of what has a and b, and numbers and vectors.
+template <class Event>
+class Columns {
+ public:
+  explicit Columns(const std::vector<Event>& events) : events_(events) {
+    py::list a;
+    py::list b;
+    for (const Event& event : events) {
+      a.append(event.a);
+      b.append(event.b);
+    }
+    found_["time"] = numbers(&Event::time);
+    found_["a"] = a;
+    found_["b"] = b;
+    found_["point"] = vectors(&Event::point);
+    found_["normal"] = vectors(&Event::normal);
+  }
+  py::array_t<double> numbers(double Event::*part) const {
+    py::array_t<double> array(static_cast<py::ssize_t>(events_.size()));
+    std::transform(events_.begin(), events_.end(), array.mutable_data(),
+                   [&](const Event& each) { return each.*part; });
     return array;
-  };
-  const auto vectors = [&](auto&& of) {
-    py::array_t<double> array({static_cast<py::ssize_t>(impacts.size()), py::ssize_t{3}});
+  }
+  py::array_t<double> vectors(careen::v1::Vector Event::*part) const {
+    py::array_t<double> array({static_cast<py::ssize_t>(events_.size()), py::ssize_t{3}});
     double* to = array.mutable_data();
-    for (const Impact& impact : impacts) {
-      to = std::copy(of(impact).begin(), of(impact).end(), to);
+    for (const Event& event : events_) {
+      to = std::copy((event.*part).begin(), (event.*part).end(), to);
     }
     return array;
-  };
-  py::list a;
-  py::list b;
-  for (const Impact& impact : impacts) {
-    a.append(impact.a);
-    b.append(impact.b);
   }
-  py::dict found;
-  found["time"] = numbers([](const Impact& each) { return each.time; });
-  found["a"] = a;
-  found["b"] = b;
-  found["point"] = vectors([](const Impact& each) -> const auto& { return each.point; });
-  found["normal"] = vectors([](const Impact& each) -> const auto& { return each.normal; });
-  found["approach"] = numbers([](const Impact& each) { return each.approach; });
-  found["impulse"] = numbers([](const Impact& each) { return each.impulse; });
-  found["tangential"] = numbers([](const Impact& each) { return each.tangential; });
-  return found;
+  py::dict& found() { return found_; }
+
+ private:
+  const std::vector<Event>& events_;
+  py::dict found_;
+};
+
+py::dict impactsOf(const Run& run) {
+  Columns<Impact> columns(run.impacts());
+  columns.found()["approach"] = columns.numbers(&Impact::approach);
+  columns.found()["impulse"] = columns.numbers(&Impact::impulse);
+  columns.found()["tangential"] = columns.numbers(&Impact::tangential);
+  return columns.found();
+}
+
+py::dict forcesOf(const Run& run, const Times& times) {
+  std::vector<Force> forces;
+  {
+    const std::vector<double> at(times.data(), times.data() + times.size());
+    const py::gil_scoped_release unlocked;
+    forces = run.forces(at);
+  }
+  Columns<Force> columns(forces);
+  columns.found()["force"] = columns.vectors(&Force::force);
+  columns.found()["left"] = columns.numbers(&Force::left);
+  return columns.found();
 }
 
 py::dict auditOf(const Run& run) {
@@ -319,6 +346,18 @@ PYBIND11_MODULE(careen, module) {
            "gave since the start; impacts, joint_friction, damping, drag and remaining, what was lost since. "
            "total - motors - changes + what was lost is the total at the start. momentum S+(3,) [kg m/s] and "
            "angular_momentum S+(3,) [kg m^2/s] about the world's origin.")
+      .def("forces", &forcesOf, py::arg("t"),
+           "Forces of contact at times t [s], an array within [0, duration], moment by moment: a dictionary "
+           "of "
+           "K rows, one for each point at which something pushes: time (K,) [s]; a, b: lists of K str, the "
+           "box "
+           "that it acts on, and the box or wall that pushes, empty if none was found; point (K, 3) [m]; "
+           "normal "
+           "(K, 3), from b to a; force (K, 3) [N] on a, the opposite on b; left (K,) [N], what of the forces "
+           "that "
+           "move the boxes as they move no forces of contact can give. Where contacts are redundant, those "
+           "with "
+           "the least sum of squares. Of what is in a crowd, means over 1/60 s or so, with its impacts.")
       .def_property_readonly(
           "audit", &auditOf,
           "What the run is worth, by code that shares nothing with the method: for each kind a "

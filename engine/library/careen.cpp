@@ -18,6 +18,7 @@
 #include "scene/prepare.h"
 #include "scene/scene_reader.h"
 #include "trajectory/energy_samples.h"
+#include "trajectory/force_samples.h"
 #include "trajectory/pose_samples.h"
 #include "trajectory/trajectory.h"
 #include "trajectory/trajectory_file.h"
@@ -179,6 +180,29 @@ std::vector<Energy> Run::energies(const std::vector<double>& times) const {
                   .remaining = now.remaining,
                   .momentum = vectorOf(now.momentum),
                   .angularMomentum = vectorOf(now.angularMomentum)};
+    }
+    return found;
+  });
+}
+
+std::vector<Force> Run::forces(double time) const { return forces(std::vector{time}); }
+
+std::vector<Force> Run::forces(const std::vector<double>& times) const {
+  const DefaultFloatEnvironment usual;
+  return translated("", [&] {
+    const Trajectory& run = data_->trajectory;
+    std::vector<Force> found;
+    const ForceSamples samples(run);
+    for (const double time : times) {
+      for (const ContactPush& push : samples.at(time)) {
+        found.push_back({.time = time,
+                         .a = run.world.bodies[static_cast<std::size_t>(push.a.value)].name,
+                         .b = careen::partnerName(run, push),
+                         .point = vectorOf(push.point),
+                         .normal = vectorOf(push.normal),
+                         .force = vectorOf(push.force),
+                         .left = push.left});
+      }
     }
     return found;
   });

@@ -193,6 +193,20 @@ struct Energy {
   Vector angularMomentum;  ///< [kg m²/s] about the world's origin
 };
 
+/// The force of a contact at one point of a box and what it touches. Where contacts share what bears a box in
+/// more than one way, it is that with the least sum of squares. Of what is in a crowd a mean over 1/60 s or
+/// so, in which its impacts, too, are.
+struct Force {
+  double time;    ///< [s]
+  std::string a;  ///< the box that it acts on
+  std::string
+      b;  ///< the box, on which the opposite acts, or wall; empty: nothing was found that moves a as it moves
+  Vector point;   ///< [m] world
+  Vector normal;  ///< from b to a, of length 1
+  Vector force;   ///< [N] on a, friction included
+  double left;    ///< [N] what of the forces that move the boxes as they move no forces of contact can give
+};
+
 /// The largest finding of a kind, by code that shares nothing with the method.
 struct AuditFigure {
   std::string kind;                 ///< such as "box_overlap"
@@ -234,6 +248,9 @@ class Run {
   /// moments at once. Error outside.
   Energy energy(double time) const;
   std::vector<Energy> energies(const std::vector<double>& times) const;  ///< at times in any order
+  /// Forces of contact at times in [0, duration()] [s], moment by moment as given. Error outside.
+  std::vector<Force> forces(const std::vector<double>& times) const;
+  std::vector<Force> forces(double time) const;
   Audit audit() const;
   /// [s] All moments at which a statement becomes true, in order of time, such as "a touches b", "height(a) <
   /// 0.5" or "rest"; 0 among them if it is from the start. Error if it is no statement about the run.

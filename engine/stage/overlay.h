@@ -19,7 +19,8 @@
   OVERLAY(Time, "time")                        \
   OVERLAY(Energy, "energy")                    \
   OVERLAY(Joints, "joints")                    \
-  OVERLAY(Efforts, "efforts")
+  OVERLAY(Efforts, "efforts")                  \
+  OVERLAY(Forces, "forces")
 
 namespace careen {
 

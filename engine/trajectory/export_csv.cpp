@@ -6,6 +6,7 @@
 #include "core/table.h"
 #include "trajectory/energy_samples.h"
 #include "trajectory/exporter.h"
+#include "trajectory/force_samples.h"
 #include "trajectory/joint_samples.h"
 #include "trajectory/pose_samples.h"
 
@@ -82,13 +83,35 @@ void writeEnergyCsv(const Trajectory& trajectory, double every, const TextSink& 
   }
 }
 
+void writeForcesCsv(const Trajectory& trajectory, double every, const TextSink& sink) {
+  CsvRow header;
+  header.add("time").add("a").add("b");
+  for (const ForceColumn& column : kForceColumns) {
+    header.add(column.name);
+  }
+  sink(header.line());
+  const ForceSamples samples(trajectory);
+  for (const double time : sampleTimes(trajectory, every)) {
+    for (const ContactPush& push : samples.at(time)) {
+      CsvRow row;
+      row.add(time)
+          .add(trajectory.world.bodies[static_cast<std::size_t>(push.a.value)].name)
+          .add(partnerName(trajectory, push));
+      for (const ForceColumn& column : kForceColumns) {
+        row.add(column.of(push));
+      }
+      sink(row.line());
+    }
+  }
+}
+
 extern const Exporter kCsvExporter;
 constexpr Exporter kCsvExporter = {
     .suffix = ".csv",
     .about = "a table of poses",
     .option = ExportOption::kEvery,
     .write = [](const Trajectory& run, const ExportSettings& settings, const TextSink& sink) -> ExportNotes {
-      writePosesCsv(run, settings.every, sink);
+      (settings.table == ExportTable::kForces ? writeForcesCsv : writePosesCsv)(run, settings.every, sink);
       return {};
     }};
 

@@ -34,6 +34,10 @@ void writeImpactsCsv(const Trajectory& trajectory, const TextSink& sink);
 /// joints.csv: one row per hinge or slider and sample, samples as in poses.csv; columns as in JointSamples.
 void writeJointsCsv(const Trajectory& trajectory, double every, const TextSink& sink);
 
+/// forces.csv: one row per sample and point at which a contact pushes, samples as in poses.csv; columns of
+/// kForceColumns.
+void writeForcesCsv(const Trajectory& trajectory, double every, const TextSink& sink);
+
 /// energy.csv: one row per sample, samples as in poses.csv; columns of kEnergyColumns.
 void writeEnergyCsv(const Trajectory& trajectory, double every, const TextSink& sink);
 

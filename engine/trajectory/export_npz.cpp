@@ -12,6 +12,7 @@
 #include "trajectory/energy_samples.h"
 #include "trajectory/export_csv.h"
 #include "trajectory/exporter.h"
+#include "trajectory/force_samples.h"
 #include "trajectory/joint_samples.h"
 #include "trajectory/numpy_array.h"
 #include "trajectory/pose_samples.h"
@@ -123,13 +124,42 @@ std::string encodeNpz(const Trajectory& trajectory, double every) {
   return archive.bytes();
 }
 
+std::string encodeForcesNpz(const Trajectory& trajectory, double every) {
+  const ForceSamples samples(trajectory);
+  std::vector<double> times;
+  std::vector<std::string> a;
+  std::vector<std::string> b;
+  std::array<std::vector<double>, kForceColumns.size()> columns;
+  for (const double time : sampleTimes(trajectory, every)) {
+    for (const ContactPush& push : samples.at(time)) {
+      times.push_back(time);
+      a.push_back(trajectory.world.bodies[static_cast<std::size_t>(push.a.value)].name);
+      b.push_back(partnerName(trajectory, push));
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        columns.at(k).push_back(kForceColumns.at(k).of(push));
+      }
+    }
+  }
+  NumpyArchive archive;
+  const std::size_t count = times.size();
+  archive.add("time", "s", NumpyArray::of(std::move(times), {count}));
+  archive.add("a", "", NumpyArray::of(std::move(a), {count}));
+  archive.add("b", "", NumpyArray::of(std::move(b), {count}));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    archive.add(std::string(kForceColumns.at(k).name), std::string(kForceColumns.at(k).unit),
+                NumpyArray::of(std::move(columns.at(k)), {count}));
+  }
+  return archive.bytes();
+}
+
 extern const Exporter kNpzExporter;
 constexpr Exporter kNpzExporter = {
     .suffix = ".npz",
     .about = "tables of poses, impacts, joints and energies",
     .option = ExportOption::kEvery,
     .write = [](const Trajectory& run, const ExportSettings& settings, const TextSink& sink) -> ExportNotes {
-      sink(encodeNpz(run, settings.every));
+      sink(settings.table == ExportTable::kForces ? encodeForcesNpz(run, settings.every)
+                                                  : encodeNpz(run, settings.every));
       return {};
     }};
 

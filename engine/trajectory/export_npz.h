@@ -12,5 +12,8 @@ namespace careen {
 /// the poses, as in energy.csv: `energy_translation` … `energy_lz`; momenta have the prefix too. `units`:
 /// name and unit of each array. InputError as writePosesCsv(), and beyond 20 million rows.
 std::string encodeNpz(const Trajectory& trajectory, double every);
+/// Forces of contact likewise, a row for each point at which one pushes, as in forces.csv: `time`, `a`, `b`
+/// (names), `x` … `left`.
+std::string encodeForcesNpz(const Trajectory& trajectory, double every);
 
 }  // namespace careen

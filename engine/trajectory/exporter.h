@@ -18,9 +18,12 @@ enum class ExportOption {
   kWithin,  ///< how far off it may be
   kEvery    ///< time between its rows
 };
+/// What a table has rows of.
+enum class ExportTable { kPoses, kForces };
 struct ExportSettings {
-  double within = 1e-4;      ///< [m] of positions, [rad] of attitudes
-  double every = 1.0 / 60;   ///< [s]
+  double within = 1e-4;     ///< [m] of positions, [rad] of attitudes
+  double every = 1.0 / 60;  ///< [s]
+  ExportTable table = ExportTable::kPoses;
   std::string program = {};  ///< name and version
 };
 

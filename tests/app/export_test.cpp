@@ -53,6 +53,29 @@ TEST_F(Export, writesTheFormatThatTheSuffixNames) {
   EXPECT_EQ(textOf(folder_ / "run.npz").substr(0, 2), "PK");
 }
 
+// The same rows from the run as while it is simulated; only tables and plots take them.
+TEST_F(Export, writesForcesOfContact) {
+  ASSERT_EQ(
+      careen({"simulate", "scene.json", "-o", "again.careen", "--forces", "told.csv", "--every", "0.01"})
+          .exitCode,
+      0);
+  ASSERT_EQ(careen({"export", "run.careen", "--out", "forces.csv", "--forces", "--every", "0.01"}).exitCode,
+            0);
+  EXPECT_EQ(textOf(folder_ / "forces.csv"), textOf(folder_ / "told.csv"));
+  EXPECT_TRUE(
+      textOf(folder_ / "forces.csv").starts_with("time,a,b,x,y,z,nx,ny,nz,fx,fy,fz,normal,friction,left\n"));
+  ASSERT_EQ(careen({"simulate", "scene.json", "-o", "again.careen", "--forces", "told.npz"}).exitCode, 0);
+  ASSERT_EQ(careen({"export", "run.careen", "--out", "forces.npz", "--forces"}).exitCode, 0);
+  EXPECT_EQ(textOf(folder_ / "forces.npz"), textOf(folder_ / "told.npz"));
+  EXPECT_EQ(textOf(folder_ / "forces.npz").substr(0, 2), "PK");
+  ASSERT_EQ(careen({"export", "run.careen", "--out", "forces.svg", "--forces"}).exitCode, 0);
+  EXPECT_NE(textOf(folder_ / "forces.svg").find("die on floor"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "forces.png"));
+  EXPECT_NE(
+      refusal({"run.careen", "--out", "film.glb", "--forces"}).find("--forces: found the file film.glb"),
+      std::string::npos);
+}
+
 TEST_F(Export, tellsWhatMjcfCannotSay) {
   const Ended ended = careen({"export", "run.careen", "--out", "scene.xml"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;

@@ -113,5 +113,41 @@ TEST(Overlap, aWallIsMeasuredFromTheLowestCorner) {
   }
 }
 
+// Of bodies of several boxes, against points thrown into their boxes: bars across each other.
+TEST(Overlap, ofBodiesOfSeveralBoxesIsThatOfTheNearest) {
+  RandomBoxes random;
+  Body cross;
+  setParts(cross, {{.halfExtents = Vec3(1, 0.1, 0.1)},
+                   {.halfExtents = Vec3(0.1, 0.1, 1), .center = Vec3(0, 0, 0.5)}});
+  Body bar;
+  bar.halfExtents = Vec3(0.1, 2, 0.1);
+  // Between the two arms, whatever the box around them.
+  EXPECT_NEAR(separationOf(cross, Pose{}, bar, {.position = Vec3(0.5, 0, 0.5)}), 0.3, 1e-15);
+  EXPECT_NEAR(separationOf(cross, Pose{}, bar, {.position = Vec3(0.15, 0, 0.5)}), -0.05, 1e-15);
+  EXPECT_NEAR(separationOf(bar, {.position = Vec3(0.5, 0, 0.15)}, cross, Pose{}), -0.05, 1e-15);
+  const Wall floor{.name = "floor", .normal = Vec3::UnitZ(), .offset = -0.7, .material = {}};
+  EXPECT_NEAR(separationOf(cross, Pose{}, floor), 0.2, 1e-15);
+  int inside = 0;
+  for (int k = 0; k < 200; ++k) {
+    const AuditBox place = random.box();
+    Body slanted;
+    setParts(slanted, {{.halfExtents = place.halfExtents,
+                        .center = place.pose.worldFromBody.transpose() * place.pose.position,
+                        .turned = true,
+                        .bodyFromPart = place.pose.worldFromBody},
+                       {.halfExtents = Vec3::Constant(0.05), .center = Vec3(0, 0, 5)}});
+    const AuditBox moved = random.box();  // only its pose
+    const std::vector<AuditBox> boxes = auditBoxes(slanted, moved.pose);
+    ASSERT_EQ(boxes.size(), 2U);
+    const Vec3 point = random.pointIn(place);
+    EXPECT_TRUE(
+        holds(boxes[0], moved.pose.worldPoint(0.999 * (point - place.pose.position) + place.pose.position)));
+    const Vec3 other = random.point(1);
+    inside += holds(place, other) ? 1 : 0;
+    EXPECT_EQ(holds(place, other), holds(boxes[0], moved.pose.worldPoint(other))) << k;
+  }
+  EXPECT_GT(inside, 3);  // measured 4
+}
+
 }  // namespace
 }  // namespace careen

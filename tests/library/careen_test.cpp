@@ -76,8 +76,9 @@ TEST_F(Library, asksAControllerAtEachSample) {
 TEST_F(Library, givesTheStatesImpactsAndHashesOfTheProgram) {
   for (const char* const name : {"careen", "zeno", "stack"}) {
     const std::string file = kScenes / (std::string(name) + ".json");
-    const Ended told = program({"simulate", file, "--verbose", "-o", "run.careen", "--poses", "poses.csv",
-                                "--impacts", "impacts.csv", "--every", "0.01", "--energy", "energy.csv"});
+    const Ended told =
+        program({"simulate", file, "--verbose", "-o", "run.careen", "--poses", "poses.csv", "--impacts",
+                 "impacts.csv", "--every", "0.01", "--energy", "energy.csv", "--forces", "forces.csv"});
     const v1::Run run = simulate(Scene::read(file));
     EXPECT_NE(told.out.find("state hash   " + run.hash()), std::string::npos) << run.hash();
 
@@ -130,6 +131,22 @@ TEST_F(Library, givesTheStatesImpactsAndHashesOfTheProgram) {
     EXPECT_THROW(run.energy(-1), Error);
     EXPECT_THROW(run.energies({0, run.duration() + 1}), Error);
     EXPECT_THROW(run.energy(std::nan("")), Error);
+
+    const auto forces = rowsOf(folder_ / "forces.csv");
+    const std::vector<Force> pushes = run.forces(std::vector(times.rbegin(), times.rend()));
+    ASSERT_EQ(pushes.size(), forces.size());
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      const Force& push = pushes[k];
+      ASSERT_EQ(push.time, forces[k][0]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        ASSERT_EQ(push.point[axis], forces[k][3 + axis]) << name << " row " << k;
+        ASSERT_EQ(push.normal[axis], forces[k][6 + axis]);
+        ASSERT_EQ(push.force[axis], forces[k][9 + axis]);
+      }
+      ASSERT_EQ(push.left, forces[k][14]);
+      ASSERT_FALSE(push.a.empty());
+    }
+    EXPECT_THROW(run.forces(-1), Error);
 
     const auto impacts = rowsOf(folder_ / "impacts.csv");
     ASSERT_EQ(impacts.size(), run.impacts().size());

@@ -56,6 +56,10 @@ class Module(unittest.TestCase):
                 numpy.testing.assert_array_equal(energies[key], expected)
             self.assertEqual(run.energy([[0, 0.1]])["momentum"].shape, (1, 2, 3))
             self.assertEqual(run.energy(0)["total"], table["energy_total"][0])
+            forces = run.forces([run.duration])
+            self.assertEqual(forces["force"].shape, (len(forces["a"]), 3))
+            self.assertTrue((forces["time"] == run.duration).all())
+            self.assertEqual(set(forces), {"time", "a", "b", "point", "normal", "force", "left"})
 
     def test_a_control_in_python_is_that_of_the_scene(self):
         scene = SCENES / "pole.json"

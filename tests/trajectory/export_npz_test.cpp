@@ -50,6 +50,26 @@ TEST(ExportNpz, impactsAndUnitsAreThere) {
   EXPECT_EQ(units.texts[1], "s");
 }
 
+// 2 kg on the floor: four rows of 5 N for each moment.
+TEST(ExportNpz, forcesAreRows) {
+  World world;
+  world.gravity = Vec3(0, 0, -10);
+  world.walls = {wall("floor", Vec3::UnitZ(), 0, 0)};
+  world.bodies = {box("box", Vec3::Constant(0.5), 2, Vec3(0, 0, 0.5), Vec3::Zero(), Vec3::Zero(), 0)};
+  const Trajectory run = record(world, {.duration = 1}, "");
+  std::map<std::string, NumpyArray> arrays;
+  for (const auto& [name, bytes] : unzipped(encodeForcesNpz(run, 0.5), "t")) {
+    arrays[name] = decodeNumpy(bytes, name);
+  }
+  EXPECT_EQ(arrays.at("time.npy").numbers, (std::vector<double>{0, 0, 0, 0, 0.5, 0.5, 0.5, 0.5, 1, 1, 1, 1}));
+  EXPECT_EQ(arrays.at("a.npy").texts, std::vector<std::string>(12, "box"));
+  EXPECT_EQ(arrays.at("b.npy").texts, std::vector<std::string>(12, "floor"));
+  EXPECT_EQ(arrays.at("units.npy").shape, (std::vector<std::size_t>{arrays.size() - 1, 2}));
+  for (const double force : arrays.at("fz.npy").numbers) {
+    EXPECT_NEAR(force, 5, 1e-12);
+  }
+}
+
 // What encodeNpz() writes is read as a table again, joints and energies beside the poses.
 TEST(ExportNpz, energiesStandBesideThePoses) {
   Trajectory run = driftAndReturn();

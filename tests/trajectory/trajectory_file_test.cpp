@@ -209,10 +209,39 @@ TEST(TrajectoryFile, bringsBackARunOfManyPieces) {
   EXPECT_EQ(encodeTrajectory(back), bytes);
 }
 
-// Format version 11: without changes of gravity, a list before the length and the hash of the last state, and
-// six numbers for each body and wall, how their surfaces move.
+// Format version 12: without parts, a list for each body, before the length and the hash of the last state.
+std::size_t sinceVersion12(const Trajectory& run) { return 8 * run.world.bodies.size(); }
+
+TEST(TrajectoryFile, readsWhatVersion12Wrote) {
+  const Trajectory run = driftAndReturn();
+  std::string record = recordOf(encodeTrajectory(run));
+  const std::size_t more = sinceVersion12(run);
+  const std::size_t end = record.size() - 8 - run.stateHash().size();
+  EXPECT_EQ(record.substr(end - more, more), std::string(more, '\0'));
+  record.erase(end - more, more);
+  const std::string bytes = withRightChecksum("careen\r\n" + inBytes(12) + pieceOf(record) + "checksum");
+  EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
+}
+
+TEST(TrajectoryFile, keepsTheBoxesOfABody) {
+  Trajectory run = driftAndReturn();
+  Body& body = run.world.bodies[0];
+  const Mat3 turned = Quat(Eigen::AngleAxisd(0.5, Vec3::UnitY())).toRotationMatrix();
+  setParts(body, {{.halfExtents = Vec3(0.5, 0.5, 0.1)},
+                  {.halfExtents = Vec3(0.1, 0.1, 0.5),
+                   .center = Vec3(0.1, 0.2, 0.3),
+                   .turned = true,
+                   .bodyFromPart = turned}});
+  const Trajectory back = decodeTrajectory(encodeTrajectory(run), "run.careen");
+  EXPECT_EQ(back.world.bodies[0].parts, body.parts);
+  EXPECT_EQ(back.world.bodies[0].partCorners, body.partCorners);
+  EXPECT_EQ(back.world.bodies[0].halfExtents, body.halfExtents);
+}
+
+// Format version 11: without changes of gravity too, a list, and six numbers for each body and wall, how
+// their surfaces move.
 std::size_t sinceVersion11(const Trajectory& run) {
-  return 8 + 48 * (run.world.bodies.size() + run.world.walls.size());
+  return 8 + 48 * (run.world.bodies.size() + run.world.walls.size()) + sinceVersion12(run);
 }
 
 TEST(TrajectoryFile, readsWhatVersion11Wrote) {
@@ -320,8 +349,8 @@ TEST(TrajectoryFile, aMinuteOfABouncingBoxTakesLessThan50kB) {
 
 TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
-  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 12: a newer careen wrote it"),
-                                        std::pair('\3', "3, expected 4 to 12: simulate its scene again")}) {
+  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 13: a newer careen wrote it"),
+                                        std::pair('\3', "3, expected 4 to 13: simulate its scene again")}) {
     bytes[8] = version;
     EXPECT_EQ(messageOf(withRightChecksum(bytes)),
               "run.careen: this trajectory file has format version " + std::string(remedy));

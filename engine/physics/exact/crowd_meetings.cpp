@@ -76,14 +76,6 @@ bool meetsWithin(const Bodies& bodies, const CrowdGroup& group, const Mover& out
                  [&](int box) { return sleeps ? member.moving(time, box) : step.moving(box); });
 }
 
-bool areNearer(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double way) {
-  bool areAny = false;
-  forBoxes(a, poseA, b, poseB, [&](const BoxAt& boxA, const BoxAt& boxB) {
-    areAny = areAny || BoxAxes(boxA, boxB).gap() <= way;
-  });
-  return areAny;
-}
-
 /// Whether any member in the cells around that body, which may touch it, does that.
 template <class Does>
 bool anyMember(const Bodies& bodies, const CrowdGroup& group, int rank, const Does& does) {
@@ -166,7 +158,8 @@ bool meetsNext(const Bodies& bodies, const CrowdGroup& group, int rank, const In
         within * ((state.velocity - at.velocity).norm() + turning + at.radius * at.omega.norm() +
                   (within + at.behind) * bodies.world().gravity.norm());
     if ((state.pose.position - at.position).norm() > radius + at.radius + way ||
-        !areNearer(*body.body, state.pose, *member.body, stateOf(at).pose, way)) {
+        !anyBoxes(*body.body, state.pose, *member.body, stateOf(at).pose,
+                  [&](const BoxAt& a, const BoxAt& b) { return BoxAxes(a, b).gap() <= way; })) {
       return false;
     }
     return !body.moves() || isOfCrowd ||

@@ -105,10 +105,8 @@ bool areTouching(const BoxAt& a, const BoxAt& b, double apart) {
 }
 
 bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double apart) {
-  bool areAny = false;
-  forBoxes(a, poseA, b, poseB,
-           [&](const BoxAt& boxA, const BoxAt& boxB) { areAny = areAny || areTouching(boxA, boxB, apart); });
-  return areAny;
+  return anyBoxes(a, poseA, b, poseB,
+                  [&](const BoxAt& boxA, const BoxAt& boxB) { return areTouching(boxA, boxB, apart); });
 }
 
 }  // namespace careen

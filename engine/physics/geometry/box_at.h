@@ -38,15 +38,26 @@ inline BoxAt boxAt(const Pose& pose, const Body& body, int index) {
   return body.parts.empty() ? boxAt(pose, body) : boxAt(pose, body.part(index), index);
 }
 
-/// Calls visit(boxA, boxB) for all boxes of a body with all of another, given their poses.
-template <class Visit>
-void forBoxes(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, const Visit& visit) {
+/// Whether does(boxA, boxB) is true of any box of a body and one of another, given their poses.
+template <class Does>
+bool anyBoxes(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, const Does& does) {
   for (int i = 0; i < a.partCount(); ++i) {
     const BoxAt boxA = boxAt(poseA, a, i);
     for (int j = 0; j < b.partCount(); ++j) {
-      visit(boxA, boxAt(poseB, b, j));
+      if (does(boxA, boxAt(poseB, b, j))) {
+        return true;
+      }
     }
   }
+  return false;
+}
+/// Calls visit(boxA, boxB) for all of them.
+template <class Visit>
+void forBoxes(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, const Visit& visit) {
+  anyBoxes(a, poseA, b, poseB, [&](const BoxAt& boxA, const BoxAt& boxB) {
+    visit(boxA, boxB);
+    return false;
+  });
 }
 
 /// Which of two boxes plays the part of a where both may: whichever is smaller, else nearer to the origin. It

@@ -11,6 +11,7 @@
 #include "render/overlay/shapes.h"
 #include "render/overlay/style.h"
 #include "stage/overlay.h"
+#include "trajectory/force_samples.h"
 #include "trajectory/trajectory.h"
 #include "view/screen.h"
 
@@ -32,8 +33,9 @@ struct OverlayFrame {
   const std::vector<std::size_t>& farthestFirst;  ///< bodies: what is nearer is drawn over what is behind it
   const OverlayFonts* fonts = nullptr;            ///< non-null if there is text
   const EnergyBook* energy = nullptr;             ///< non-null if the energy is shown
-  const NamesNow* names = nullptr;                ///< non-null if names are shown
-  const Trajectory* ghost = nullptr;              ///< non-null if another run is shown as outlines
+  const std::vector<ContactPush>* forces = nullptr;  ///< non-null if forces are shown
+  const NamesNow* names = nullptr;                   ///< non-null if names are shown
+  const Trajectory* ghost = nullptr;                 ///< non-null if another run is shown as outlines
   const Screen& screen;
   OverlayStyle style;
 };
@@ -42,7 +44,7 @@ struct OverlayFrame {
 enum class OverlayLayer { kTrails, kAxes, kArrows, kImpacts, kPanels, kNames };
 
 /// What an overlay needs that is made once for a film.
-enum class OverlayNeeds { kNothing, kText, kEnergy, kNames };
+enum class OverlayNeeds { kNothing, kText, kEnergy, kNames, kForces };
 
 /// What an overlay's arrows mean: a row of the legend, with an arrow of a round value as scale. The longest
 /// arrow stands for the largest value of the film. An arrow's length is proportional to its value, as seen at
@@ -52,10 +54,11 @@ struct ArrowMeaning {
   const char* name = "";
   const char* unit = "";
   Color color = {};
-  // One of the three.
+  // One of the four.
   Vec3 (*ofBody)(const MassProperties& mass, const BodyState& state) = nullptr;
   double (*ofImpact)(const Impact& impact) = nullptr;
   double (*ofEffort)(const JointEffort& effort) = nullptr;
+  double (*ofPush)(const ContactPush& push) = nullptr;
 };
 
 struct ShownOverlay;

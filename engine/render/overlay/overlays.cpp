@@ -41,6 +41,19 @@ void findLargestOfBodies(std::span<ShownOverlay* const> arrows, const Trajectory
   }
 }
 
+// [N] Of the film, at some moments: to find the forces of one takes long.
+double largestForce(const ArrowMeaning& legend, const Trajectory& trajectory) {
+  constexpr int kMoments = 64;
+  const ForceSamples samples(trajectory);
+  double largest = 0;
+  for (int k = 0; k <= kMoments; ++k) {
+    for (const ContactPush& push : samples.at(trajectory.settings.duration * k / kMoments)) {
+      largest = std::max(largest, legend.ofPush(push));
+    }
+  }
+  return largest;
+}
+
 void findLargest(std::vector<ShownOverlay>& shown, const Trajectory& trajectory) {
   std::vector<ShownOverlay*> ofBodies;
   for (ShownOverlay& each : shown) {
@@ -50,6 +63,8 @@ void findLargest(std::vector<ShownOverlay>& shown, const Trajectory& trajectory)
       for (const JointEffort& effort : trajectory.jointEfforts) {
         each.largest = std::max(each.largest, each.kind->legend->ofEffort(effort));
       }
+    } else if (each.kind->legend && each.kind->legend->ofPush != nullptr) {
+      each.largest = largestForce(*each.kind->legend, trajectory);
     } else if (each.kind->legend) {
       for (const Impact& impact : trajectory.impacts) {
         each.largest = std::max(each.largest, each.kind->legend->ofImpact(impact));
@@ -78,6 +93,8 @@ Overlays::Overlays(const Trajectory& trajectory, const OverlaySet& shown, double
       energy_.emplace(trajectory);
     } else if (each.kind->needs == OverlayNeeds::kNames) {
       names_.emplace(trajectory, frameSeconds);
+    } else if (each.kind->needs == OverlayNeeds::kForces) {
+      forces_.emplace(trajectory);
     }
   }
 }
@@ -149,6 +166,11 @@ OverlayShapes Overlays::shapesAt(double filmTime, const MomentAt& momentAt, int 
   if (names_) {
     names.emplace(NamesNow{*names_, filmTime, momentAt, freeAt});
     frame.names = &*names;
+  }
+  std::vector<ContactPush> forces;
+  if (forces_) {
+    forces = forces_->at(frame.time);
+    frame.forces = &forces;
   }
   OverlayShapes shapes;
   if (ghost_ != nullptr) {

@@ -36,6 +36,7 @@ class Overlays {
   std::vector<ShownOverlay> shown_;  // back to front
   std::optional<OverlayFonts> fonts_;
   std::optional<EnergyBook> energy_;
+  std::optional<ForceSamples> forces_;
   std::optional<Names> names_;
 };
 

@@ -17,6 +17,7 @@ inline constexpr Color kMoss{132, 172, 98};     // spin axis
 inline constexpr Color kAmber{232, 168, 62};    // impulses
 inline constexpr Color kSand{205, 186, 140};    // potential energy
 inline constexpr Color kRose{200, 122, 116};    // spring energy and efforts of motors
+inline constexpr Color kCoral{226, 108, 62};    // forces of contact
 inline constexpr Color kGrey{132, 136, 140};    // lost energy
 
 inline constexpr double kPlateAlpha = 0.70;

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "support/physics_worlds.h"
 #include "support/pile_scenes.h"
 
 namespace careen {
@@ -86,6 +88,32 @@ TEST(PilePairs, leavesOutWhatPassesThroughEachOther) {
     found.emplace(pair.a, pair.b);
   }
   EXPECT_EQ(found, (Found{{0, 2}, {1, 2}}));
+}
+
+// A table, a crate and a wall: each box of the one with each of the other, in the order of bodies and boxes.
+TEST(PilePairs, areOfAllBoxesOfTwoBodies) {
+  World world;
+  world.walls = {floorAt(0)};
+  Body table = makeBox({.position = Vec3(0, 0, 0.2), .name = "table"});
+  setParts(table, {{.halfExtents = Vec3(0.3, 0.3, 0.05), .center = Vec3(0, 0, 0.2)},
+                   {.halfExtents = Vec3(0.05, 0.05, 0.2)}});
+  world.bodies = {table, makeBox({.position = Vec3(0.2, 0, 0.6), .name = "crate"}), table};
+  world.bodies[2].initial.pose.position.x() = 0.5;
+  std::vector<PileBody> bodies{pileBody(world.walls[0])};
+  for (const Body& body : world.bodies) {
+    bodies.push_back(pileBody(body, body.initial));
+  }
+  PilePairs pairs;
+  pairs.update(bodies, Vec3::Zero(), 0.01, 0.1);
+  using Found = std::array<int, 4>;
+  std::vector<Found> found;
+  for (const PilePair& pair : pairs.pairs()) {
+    found.push_back({pair.a, pair.boxA, pair.b, pair.boxB});
+  }
+  const std::vector<Found> expected{{1, 0, 2, 0}, {1, 1, 2, 0}, {1, 0, 3, 0}, {1, 0, 3, 1},
+                                    {1, 1, 3, 0}, {1, 1, 3, 1}, {1, 0, 0, 0}, {1, 1, 0, 0},
+                                    {2, 0, 3, 0}, {2, 0, 3, 1}, {3, 0, 0, 0}, {3, 1, 0, 0}};
+  EXPECT_EQ(found, expected);
 }
 
 }  // namespace

@@ -237,5 +237,25 @@ TEST(MoveApart, liftsAHighTower) {
   }
 }
 
+// A bridge over a cube: their boxes overlap where the cube is under its foot, and nowhere else.
+TEST(MoveApart, seesEachBoxOfABody) {
+  PlacedBox bridge{.name = "bridge", .halfExtents = Vec3(1.5, 0.5, 1), .inverseMass = 1};
+  bridge.parts = {{.halfExtents = Vec3(1.5, 0.5, 0.2), .center = Vec3(0, 0, 0.8)},
+                  {.halfExtents = Vec3(0.25, 0.5, 0.8), .center = Vec3(-1.25, 0, -0.2)},
+                  {.halfExtents = Vec3(0.25, 0.5, 0.8), .center = Vec3(1.25, 0, -0.2)}};
+  EXPECT_FALSE(firstOverlap(std::vector{bridge, cube("under", Vec3(0.4, 0, -0.1))}));
+  const std::vector<PlacedBox> deep{bridge, cube("under", Vec3(0.6, 0, -0.1))};
+  const std::optional<Overlap> overlap = firstOverlap(deep);
+  ASSERT_TRUE(overlap);
+  EXPECT_NEAR(overlap->depth, 0.1, 1e-15);
+  const Parted parted = moveApart(deep, {});
+  EXPECT_EQ(parted.pairs, 1U);
+  EXPECT_NEAR((parted.positions[1] - parted.positions[0]).x(), 0.5, 1e-12);
+  EXPECT_NEAR(lowestGap(wall("floor", Vec3::UnitZ(), -1.2), bridge).gap, 0.2, 1e-15);
+  // Pushed down onto the cube by a ceiling it finds room beside it or below.
+  const std::vector<PlacedBox> low{bridge, cube("under", Vec3(0, 0, 0.2))};
+  EXPECT_FALSE(firstOverlap(movedTo(low, moveApart(low, {}))));
+}
+
 }  // namespace
 }  // namespace careen

@@ -1,5 +1,6 @@
 #include "physics/world/body.h"
 
+#include <cmath>
 #include <limits>
 #include <set>
 #include <tuple>
@@ -160,6 +161,40 @@ TEST(Corner, visitsAllEight) {
     seen.insert({at.x(), at.y(), at.z()});
   }
   EXPECT_EQ(seen.size(), 8U);
+}
+
+// Two cubes glued face to face share four corners, which count once; a bar through a plate keeps its ends.
+TEST(SetParts, listsTheCornersThatMayTouchAWall) {
+  Body glued;
+  setParts(glued, {{.halfExtents = Vec3::Ones()}, {.halfExtents = Vec3::Ones(), .center = Vec3(2, 0, 0)}});
+  EXPECT_EQ(glued.cornerCount(), 12);
+  EXPECT_EQ(glued.halfExtents, Vec3(3, 1, 1));
+  Body through;
+  setParts(through, {{.halfExtents = Vec3(1, 1, 0.1)}, {.halfExtents = Vec3(0.1, 0.1, 0.5)}});
+  EXPECT_EQ(through.cornerCount(), 16);
+  EXPECT_EQ(through.thinnest(), 0.1);
+  Body within;
+  setParts(within, {{.halfExtents = Vec3(0.1, 0.1, 0.1)}, {.halfExtents = Vec3(1, 1, 1)}});
+  EXPECT_EQ(within.cornerCount(), 8);
+  for (int k = 0; k < kCorners; ++k) {
+    EXPECT_EQ(corner(within, k), corner(Vec3::Ones(), k));
+  }
+}
+
+TEST(SetParts, turnsPartsAboutTheBody) {
+  Body body;
+  body.boxCenter = Vec3(0, 0, 1);
+  const Mat3 quarter = axisAngle(Vec3::UnitZ(), std::acos(0.0));
+  const BodyPart bar{
+      .halfExtents = Vec3(2, 0.5, 0.25), .center = Vec3(1, 0, 0), .turned = true, .bodyFromPart = quarter};
+  setParts(body, {bar});
+  EXPECT_LT((body.part(0).middle() - Vec3(0, 1, 0)).norm(), 1e-15);
+  EXPECT_LT((body.halfExtents - Vec3(0.5, 3, 1.25)).norm(), 1e-15);
+  const Pose box{.position = Vec3(5, 6, 7), .worldFromBody = kTurned};
+  const Pose middle = partPose(body, 0, box);
+  EXPECT_LT((middle.position - box.worldPoint(Vec3(0, 1, -1))).norm(), 2e-15);
+  EXPECT_LT((middle.worldFromBody - kTurned * quarter).norm(), 1e-15);
+  EXPECT_EQ(bar.seenFrom(Vec3(0, 1, 0)).middle().norm() < 1e-15, true);
 }
 
 }  // namespace
