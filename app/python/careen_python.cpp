@@ -328,7 +328,8 @@ PYBIND11_MODULE(careen, module) {
       .def("states", &statesOf, py::arg("t"),
            "States at times t [s], an array of any shape S within [0, duration]. A dictionary of arrays: "
            "position "
-           "S+(N, 3) [m] of the centres; orientation S+(N, 4), w x y z, world from body; velocity S+(N, 3) "
+           "S+(N, 3) [m] of their middles, of bodies of several parts of their frames; orientation S+(N, 4), "
+           "w x y z, world from body; velocity S+(N, 3) "
            "[m/s]; "
            "angular_velocity S+(N, 3) [rad/s], world frame.")
       .def_property_readonly(

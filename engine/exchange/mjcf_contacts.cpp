@@ -1,6 +1,7 @@
 #include "exchange/mjcf_contacts.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <optional>
@@ -58,8 +59,8 @@ class ContactReader {
   void readPair(const XmlElement& pair) {
     document_.check(pair, {"name", "geom1", "geom2", "condim", "friction"},
                     {"solref", "solreffriction", "solimp", "margin", "gap"});
-    std::size_t ends[2] = {0, 0};
-    for (const int k : {0, 1}) {
+    std::array<std::size_t, 2> ends{};
+    for (const std::size_t k : {0U, 1U}) {
       const char* const attribute = k == 0 ? "geom1" : "geom2";
       const auto found = byGeom_.find(pair.text(attribute));
       if (found == byGeom_.end() || found->first.empty()) {
@@ -157,8 +158,8 @@ class ContactReader {
 
   void readExclude(const XmlElement& exclude) {
     document_.check(exclude, {"name", "body1", "body2"});
-    std::vector<std::size_t> ends[2];
-    for (const int k : {0, 1}) {
+    std::array<std::vector<std::size_t>, 2> ends;
+    for (const std::size_t k : {0U, 1U}) {
       const char* const attribute = k == 0 ? "body1" : "body2";
       const std::string name = exclude.text(attribute);
       if (!model_.bodies.contains(name)) {

@@ -83,7 +83,7 @@ std::vector<MassPart> partsOf(const MjcfDocument& document, const std::vector<Mj
       document.fail(*geom.element,
                     "a <geom> that collides with nothing, whose mass counts or not, by the version of "
                     "MuJoCo (discardvisual)",
-                    "mass=\"0\" for it, or discardvisual=\"false\"");
+                    R"(mass="0" for it, or discardvisual="false")");
     }
     if (solid.mass > 0) {
       parts.push_back({.geom = &geom, .solid = solid});

@@ -52,7 +52,7 @@ void checkBox(const MjcfDocument& document, const MjcfGeom& geom) {
   if (geom.type != "box") {
     const XmlAttribute* const type = geom.element->find("type");
     document.tree().fail(type == nullptr ? geom.element->offset : type->offset,
-                         "a <geom> of type " + inQuotes(geom.type), "type=\"box\" or type=\"plane\"");
+                         "a <geom> of type " + inQuotes(geom.type), R"(type="box" or type="plane")");
   }
   checkSize(document, geom, 3);
 }

@@ -53,6 +53,13 @@ class SceneError : public Error {
   std::size_t column_;
 };
 
+/// One of the boxes of a body, in that body's frame.
+struct BoxPart {
+  Vector halfExtents = {0.5, 0.5, 0.5};   ///< [m]
+  Vector position = {0, 0, 0};            ///< [m] of its middle
+  Quaternion orientation = {1, 0, 0, 0};  ///< body from part
+};
+
 /// A box of a scene that is built in code; keys of scene files have the same names and defaults.
 struct Box {
   std::string name;                       ///< empty: box-0, box-1 …
@@ -72,6 +79,10 @@ struct Box {
   Vector center = {0, 0, 0};
   Vector surfaceVelocity = {0, 0, 0};  ///< [m/s] belts: how the faces of a fixed box move along themselves
   double surfaceSpin = 0;              ///< [rad/s] turntables: likewise, about its z axis
+  /// A rigid body of several boxes, which may overlap, in the place of `halfExtents`. `position` and `State`
+  /// are then of its frame's origin; the centre of mass, if `center` is 0, and the inertia, if there is none,
+  /// are those of the union of its boxes.
+  std::vector<BoxPart> parts = {};
 };
 
 /// A plane that keeps boxes on the side that its normal points to.

@@ -58,8 +58,7 @@ Scene& Scene::gravity(const std::vector<std::pair<double, Vector>>& path) {
 
 Scene& Scene::add(const Box& box) {
   requireBuilt();
-  Json json = {{"half_extents", box.halfExtents},
-               {"mass", box.mass},
+  Json json = {{"mass", box.mass},
                {"position", box.position},
                {"orientation", box.orientation},
                {"velocity", box.velocity},
@@ -67,6 +66,13 @@ Scene& Scene::add(const Box& box) {
                {"restitution", box.restitution},
                {"friction", box.friction},
                {"fixed", box.fixed}};
+  if (box.parts.empty()) {
+    json["half_extents"] = box.halfExtents;
+  }
+  for (const BoxPart& part : box.parts) {
+    json["parts"].push_back(
+        {{"half_extents", part.halfExtents}, {"position", part.position}, {"orientation", part.orientation}});
+  }
   if (box.inertia) {
     json["inertia"] = *box.inertia;
   }

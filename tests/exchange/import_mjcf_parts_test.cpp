@@ -177,7 +177,7 @@ TEST(ImportMjcfParts, randomBodiesMoveAsInMujoco) {
     ASSERT_LT(fine, 1e-3) << seed << "\n" << xml;
   }
   std::cout << "after 0.1 s " << mostOff << " ratio " << mostRatio << '\n';
-  EXPECT_LT(mostOff, 1e-6);
+  EXPECT_LT(mostOff, 1e-6);  // measured: 2.2e-7
   EXPECT_LT(mostRatio, 0.1);
 }
 

@@ -150,7 +150,7 @@ TEST(ImportMjcf, whatExportWritesComesBack) {
       EXPECT_EQ(first.springs[i].restLength, second.springs[i].restLength);
     }
   }
-  EXPECT_EQ(scenes, 22U);
+  EXPECT_EQ(scenes, 25U);
   std::cout << "attitudes " << turned << '\n';
   EXPECT_LT(turned, 2e-15);
   std::cout << joints.count << " joints, places " << joints.place << " coordinates " << joints.coordinate

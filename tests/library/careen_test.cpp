@@ -275,6 +275,43 @@ TEST_F(Library, boxesHaveTheInertiaAndTheCentreThatAreGiven) {
   EXPECT_THROW(simulate(Scene(1).add(Box{.name = "a", .center = {0.6, 0, 0}})), SceneError);
 }
 
+// Three cubes of 1 m and 1 kg, in an L.
+TEST_F(Library, boxesMayHaveSeveralParts) {
+  const Vector half = {0.5, 0.5, 0.5};
+  const double quarter = std::sqrt(0.5);
+  const Box body{
+      .name = "corner",
+      .mass = 3,
+      .position = {0, 0, 4},
+      .velocity = {0, 0, 1},
+      .angularVelocity = {0, 2, 0},
+      .parts = {{.halfExtents = half},
+                {.halfExtents = half, .position = {1, 0, 0}},
+                {.halfExtents = half, .position = {0, 0, 1}, .orientation = {quarter, 0, 0, quarter}}}};
+  const v1::Run run = simulate(Scene(1.0, {0, 0, 0}).add(body));
+  // The centre of mass is at (1/3, 0, 1/3), which starts with (0, 0, 1) + (0, 2, 0) × (1/3, 0, 1/3); y is a
+  // principal axis, since the body is the same on both of its sides.
+  const Vector drift = {2.0 / 3, 0, 1 - 2.0 / 3};
+  const State state = run.state(0, 1);
+  const double sine = std::sin(2.0);
+  const double cosine = std::cos(2.0);
+  const Vector arm = {(cosine + sine) / 3, 0, (cosine - sine) / 3};
+  const Vector start = {1.0 / 3, 0, 4 + 1.0 / 3};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(state.position[i], start[i] + drift[i] - arm[i], 1e-13) << i;
+    EXPECT_NEAR(state.angularVelocity[i], i == 1 ? 2 : 0, 1e-13) << i;
+  }
+  const Scene same = Scene::parse(R"({ "careen": 1, "duration": 1, "boxes": [ { "name": "corner", "mass": 3,
+    "parts": [ { "half_extents": [0.5, 0.5, 0.5] }, { "half_extents": [0.5, 0.5, 0.5], "position": [1, 0, 0] },
+               { "half_extents": [0.5, 0.5, 0.5], "position": [0, 0, 1],
+                 "orientation": [0.7071067811865476, 0, 0, 0.7071067811865476] } ],
+    "position": [0, 0, 4], "velocity": [0, 0, 1], "angular_velocity": [0, 2, 0] } ] })");
+  EXPECT_EQ(simulate(same).state(0, 1).position, state.position);
+  Box wrong = body;
+  wrong.parts[1].halfExtents[2] = 0;
+  EXPECT_THROW(simulate(Scene(1).add(wrong)), SceneError);
+}
+
 TEST_F(Library, auditsAsTheProgramDoes) {
   const v1::Run run = simulate(Scene::read(kScenes / "zeno.json"));
   const Audit audit = run.audit();

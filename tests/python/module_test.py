@@ -96,6 +96,19 @@ class Module(unittest.TestCase):
         middle = center + times[:, None] * cross(spin, center) - turn @ center
         numpy.testing.assert_allclose(states["position"], middle, rtol=0, atol=1e-13)
 
+    def test_boxes_may_have_several_parts(self):
+        half = [0.5, 0.5, 0.5]  # three cubes of 1 m and 1 kg, in an L
+        run = careen.simulate({"careen": 1, "duration": 1, "boxes": [
+            {"name": "corner", "mass": 3, "angular_velocity": [0, 2, 0], "parts": [
+                {"half_extents": half}, {"half_extents": half, "position": [1, 0, 0]},
+                {"half_extents": half, "position": [0, 0, 1]}]}]})
+        times = numpy.linspace(0, 1, 11)
+        found = run.states(times)["position"][:, 0]
+        cosine, sine, none = numpy.cos(2 * times), numpy.sin(2 * times), 0 * times
+        center = numpy.stack([1 / 3 + 2 / 3 * times, none, 1 / 3 - 2 / 3 * times], axis=-1)
+        arm = numpy.stack([(cosine + sine) / 3, none, (cosine - sine) / 3], axis=-1)
+        numpy.testing.assert_allclose(found, center - arm, rtol=0, atol=1e-13)
+
     def test_questions_are_answered_with_moments(self):
         run = careen.simulate({"careen": 1, "duration": 1, "gravity": [0, 0, -9.81], "boxes": [
             {"name": "a", "half_extents": [0.5, 0.5, 0.5], "mass": 2, "position": [0, 0, 2]}]})

@@ -52,6 +52,42 @@ TEST(DrawnBox, ofSeveralMomentsHasWhatRestsOnce) {
   EXPECT_EQ(drawnOf(scene, poses, 0.1).size(), 4U);
 }
 
+// A bar and a head of it, turned by 90° about z, on a body that is itself turned by 90° about x: parts are
+// where their body takes them, without marks, and count by themselves; what rests is there once.
+TEST(DrawnBox, partsAreBoxesOfTheirBody) {
+  Scene scene = crateInRoom();
+  SceneBox& hammer = scene.boxes.emplace_back(boxAt(Vec3(1, 0, 2), Vec3(0.7, 0.6, 0.2)));
+  hammer.pose.worldFromBody << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  BodyPart bar{.halfExtents = Vec3(0.5, 0.1, 0.1)};
+  BodyPart head{.halfExtents = Vec3(0.6, 0.2, 0.2), .turned = true};
+  head.bodyFromPart << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  head.center = head.bodyFromPart.transpose() * Vec3(0.5, 0, 0);
+  hammer.parts = {bar, head};
+  scene.boxes.push_back(boxAt(Vec3(-1.5, 0, 2), Vec3(0.1, 0.1, 0.1)));
+  std::vector<Pose> poses = posesOf(scene);
+  const std::vector<DrawnBox> boxes = drawnOf(scene, poses, 0.1);
+  ASSERT_EQ(boxes.size(), 4U);
+  EXPECT_EQ(boxes[1].halfExtents, Vec3(0.5, 0.1, 0.1));
+  EXPECT_EQ(boxes[2].halfExtents, Vec3(0.6, 0.2, 0.2));
+  EXPECT_LT((boxes[1].pose.position - Vec3(1, 0, 2)).norm(), 1e-15);
+  EXPECT_LT((boxes[2].pose.position - Vec3(1.5, 0, 2)).norm(), 1e-15);
+  // The head's x is the body's y, which is the world's z.
+  EXPECT_LT((boxes[2].pose.worldFromBody.col(0) - Vec3::UnitZ()).norm(), 1e-15);
+  EXPECT_EQ(boxes[1].color, boxes[2].color);
+  EXPECT_TRUE(boxes[0].marked && boxes[3].marked);
+  EXPECT_FALSE(boxes[1].marked || boxes[2].marked);
+  EXPECT_FALSE(haveCopies(boxes));
+  EXPECT_EQ(boxes[3].shown, 3U);
+  const std::vector<Pose> now = poses;
+  poses.insert(poses.end(), now.begin(), now.end());
+  poses[4].position.x() += 0.1;  // the hammer, at the second moment
+  const std::vector<DrawnBox> twice = drawnOf(scene, poses, 0.1);
+  ASSERT_EQ(twice.size(), 6U);
+  EXPECT_TRUE(haveCopies(twice));
+  EXPECT_EQ(twice[5].moment, 1U);
+  EXPECT_EQ(twice[5].shown, 2U);
+}
+
 // A cube 10 m before the eye, where a pixel is 1 cm wide; its sides are seen from a metre to the right.
 TEST(DrawnBox, facesAreThoseThatTheEyeSees) {
   DrawnBox box{.pose = {}, .halfExtents = Vec3(0.5, 0.5, 0.5)};
@@ -70,11 +106,11 @@ TEST(DrawnBox, facesAreThoseThatTheEyeSees) {
 
 TEST(DrawnBox, copiesAreSeveralOfOneBody) {
   std::vector<DrawnBox> boxes(3);
-  boxes[1].body = 2;
-  boxes[2].body = 1;
+  boxes[1].shown = 2;
+  boxes[2].shown = 1;
   EXPECT_FALSE(haveCopies({}));
   EXPECT_FALSE(haveCopies(boxes));
-  boxes[2].body = 0;
+  boxes[2].shown = 0;
   EXPECT_TRUE(haveCopies(boxes));
 }
 

@@ -10,7 +10,7 @@ namespace {
 const Vec3 kEye(3, -8, 6);
 
 DrawnBox cubeAt(const Vec3& position, std::size_t body, double half = 0.5) {
-  return {.pose = {.position = position}, .halfExtents = Vec3::Constant(half), .body = body};
+  return {.pose = {.position = position}, .halfExtents = Vec3::Constant(half), .shown = body};
 }
 
 struct Lists {

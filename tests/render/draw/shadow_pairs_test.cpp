@@ -38,7 +38,7 @@ TEST(ShadowPairs, haveEveryBoxThatKeepsLightOff) {
       box.halfExtents = Vec3(0.1, 0.1, 0.1) + 0.3 * Vec3(any(random), any(random), any(random)).cwiseAbs();
       box.pose.worldFromBody =
           Quat(any(random), any(random), any(random), any(random)).normalized().toRotationMatrix();
-      box.body = boxes.size();
+      box.shown = boxes.size();
       boxes.push_back(box);
     }
     const Vec3 light = Vec3(any(random), any(random), 1).normalized();
