@@ -218,6 +218,13 @@ PlanItem belts(const Scene& scene, const Needs& needs) {
                               : modelled("belts", counted(count, "surface that moves", "surfaces that move"));
 }
 
+PlanItem courses(const Scene& scene) {
+  const auto count = static_cast<std::size_t>(std::count_if(
+      scene.boxes.begin(), scene.boxes.end(), [](const SceneBox& box) { return !box.course.empty(); }));
+  return count == 0 ? leftOut("motions", "no fixed box moves by itself")
+                    : modelled("motions", counted(count, "fixed box that moves", "fixed boxes that move"));
+}
+
 PlanItem resting(const Scene& scene, const Needs& needs) {
   if (!needs.collides) {
     return leftOut("resting", noCollision(scene));
@@ -243,7 +250,12 @@ Body bodyOf(const SceneBox& box, const Material& material) {
             .boxCenter = box.center.isZero(0) ? box.center : Vec3(-box.center),
             .mass = box.fixed ? immovable() : massOf(box),
             .material = material,
-            .initial = {}};
+            .initial = {},
+            .course = box.course};
+  if (!box.course.empty()) {
+    body.initial = stateOf(box.course.front().at(0));
+    return body;
+  }
   body.initial.pose = bodyPose(body, box.pose);
   body.initial.velocity = bodyVelocity(body, box.pose.worldFromBody, box.velocity, box.angularVelocity);
   body.initial.angularMomentum = angularMomentum(body.mass, box.pose.worldFromBody, box.angularVelocity);
@@ -289,7 +301,7 @@ Plan plan(const Scene& scene) {
            joints(scene, "joints", "joint", [](const Joint& joint) { return !isRope(joint); }),
            joints(scene, "limits", "joint", isLimited), joints(scene, "ropes", "rope", isRope), motors(scene),
            boxWall(needs), boxBox(scene, needs), restitution(scene, needs), friction(scene, needs),
-           belts(scene, needs), resting(scene, needs)}};
+           belts(scene, needs), courses(scene), resting(scene, needs)}};
 }
 
 World assemble(const Scene& scene, const Plan& plan) {
@@ -306,6 +318,9 @@ World assemble(const Scene& scene, const Plan& plan) {
   }
   if (plan.models("belts")) {
     requireMethod(scene, &MethodTraits::belts, "surfaces that move");
+  }
+  if (plan.models("motions")) {
+    requireMethod(scene, &MethodTraits::belts, "fixed boxes that move");
   }
   if (!scene.gravityChanges.empty()) {
     requireMethod(scene, &MethodTraits::gravityChanges, "gravity that changes");

@@ -10,6 +10,7 @@
 #include "scene/film_shape.h"
 #include "scene/joint_shape.h"
 #include "scene/json_shape.h"
+#include "scene/motion_shape.h"
 #include "stage/turn.h"
 
 namespace careen {
@@ -134,7 +135,7 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
   const JsonObject object =
       value.object({"name", "half_extents", "mass", "density", "mass_from", "draw", "inertia", "center",
                     "position", "orientation", "velocity", "angular_velocity", "restitution", "friction",
-                    "fixed", "color", "surface_velocity", "surface_spin"});
+                    "fixed", "color", "surface_velocity", "surface_spin", "motion"});
   SceneBox box;
   box.name = object.name("box-" + std::to_string(index));
   box.halfExtents = object.require("half_extents").vector(positiveNumber("m"));
@@ -162,6 +163,10 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
   if (const std::optional<JsonValue> orientation = object.find("orientation")) {
     box.pose.worldFromBody =
         orientation->is(Kind::kObject) ? readAxisAngle(*orientation) : readQuaternion(*orientation);
+  }
+  if (const std::optional<JsonValue> motion = object.find("motion")) {
+    box.course = readMotion(*motion, object.find("position"), box.pose);
+    box.pose = box.course.front().at(0).pose;
   }
   box.velocity = object.vector("velocity", anyNumber("m/s"));
   box.angularVelocity = object.vector("angular_velocity", anyNumber("rad/s"));

@@ -134,7 +134,10 @@ Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& record
       ++movable;
       mover.doubt = ofRounding(*mover.body);
     }
-    neighbors_.insert(rank, mover.body->initial.pose.position, radiusOf(*mover.body));
+    // What is driven may be anywhere.
+    neighbors_.insert(
+        rank, mover.body->initial.pose.position,
+        mover.body->course.empty() ? radiusOf(*mover.body) : std::numeric_limits<double>::infinity());
   }
   for (std::size_t w = 0; w < world.walls.size(); ++w) {
     const int rank = static_cast<int>(movers_.size());
@@ -200,6 +203,19 @@ void Bodies::rest(int rank, const Instant& time, const Pose& pose) {
   sleep(rank, time, pose);
 }
 
+void Bodies::drive(int rank, const Instant& time) {
+  Mover& body = (*this)[rank];
+  const CoursePart& part = partAt(body.body->course, time.hi);
+  if (!part.motion.moves()) {
+    rest(rank, time, part.motion.at(0).pose);
+    return;
+  }
+  begins(rank, time);
+  body.drive(part);
+  recorder_.moves(body.listed, time.hi, part.motion);
+  noteSpeed(body);
+}
+
 void Bodies::stand(int rank, const Instant& from, const Instant& until, const Vec3& position,
                    const Quat& attitude) {
   const double length = secondsBetween(from, until);
@@ -226,7 +242,7 @@ void Bodies::step(const std::shared_ptr<ContactGroup>& group, std::size_t place)
 
 void Bodies::noteSpeed(const Mover& body) {
   const auto note = [&](const Mover& each) {
-    const double speed = each.steps() ? each.bounds.speed : each.flight.velocity.norm();
+    const double speed = each.flies() ? each.flight.velocity.norm() : each.bounds.speed;
     fastestAtZero_ = std::max(fastestAtZero_, speed - each.start.hi * world_.gravity.norm());
   };
   if (++noted_ > count()) {
@@ -316,6 +332,10 @@ void Bodies::predict(int rank) {
                             .body = rank});
   }
   for (const int candidate : around(rank)) {
+    // All that move look for what is driven.
+    if (body.isDriven() && ((*this)[candidate].moves() || (*this)[candidate].isHeld())) {
+      continue;
+    }
     if (mayTouch(world_, body.listed.value, (*this)[candidate].listed.value) &&
         (!body.steps() || !body.group->seesTo(body.place, candidate))) {
       takeSooner(first, firstMeeting(body, (*this)[candidate], first ? first->time : end_));

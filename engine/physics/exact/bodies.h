@@ -72,6 +72,8 @@ class Bodies {
   /// What a body does from then on.
   void fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude);
   void rest(int rank, const Instant& time, const Pose& pose);
+  /// As its course is at that moment, at which a part of it begins.
+  void drive(int rank, const Instant& time);
   /// It does not move between two moments, through all the hops that are too short to follow: none is as high
   /// as its rounding.
   void stand(int rank, const Instant& from, const Instant& until, const Vec3& position, const Quat& attitude);

@@ -60,8 +60,9 @@ std::vector<std::size_t> articulationsOf(const World& world) {
 // The event loop, from here to end().
 
 ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder)
-    : changing_(world.joints.empty() && world.gravityChanges.empty() ? std::nullopt
-                                                                     : std::optional<ChangingWorld>(world)),
+    : changing_(world.joints.empty() && world.gravityChanges.empty() && !hasCourses(world)
+                    ? std::nullopt
+                    : std::optional<ChangingWorld>(world)),
       bodies_(changing_ ? changing_->world() : world, settings, recorder, changing_ ? &*changing_ : nullptr),
       articulationOf_(articulationsOf(world)) {}
 
@@ -71,7 +72,7 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
   while (true) {
     const std::optional<Event> event = bodies_.queue().next();
     const bool isOver = !event || earlier(bodies_.end(), event->time);
-    const double change = changing_ ? changing_->nextGravity() : std::numeric_limits<double>::infinity();
+    const double change = changing_ ? changing_->nextJump() : std::numeric_limits<double>::infinity();
     const bool changesFirst = change < bodies_.end().hi && (isOver || change <= event->time.hi);
     if (isOver && !changesFirst) {
       break;
@@ -87,7 +88,7 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
     }
     changeJoints(now.hi);
     if (changesFirst) {
-      changeGravity(now);
+      jump(now);
     } else {
       happen(*event);
     }
@@ -99,7 +100,9 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
 void ExactWorld::begin() {
   for (int rank = 0; rank < bodies_.count(); ++rank) {
     const BodyState& initial = bodies_[rank].body->initial;
-    if (bodies_[rank].isHeld()) {
+    if (!bodies_[rank].body->course.empty()) {
+      bodies_.drive(rank, {});
+    } else if (bodies_[rank].isHeld()) {
       bodies_.rest(rank, {}, initial.pose);
     } else {
       bodies_.fly(rank, {}, initial, Quat(initial.pose.worldFromBody).normalized());
@@ -123,8 +126,9 @@ void ExactWorld::changeJoints(double until) {
   }
 }
 
-// All that can move flies anew, as at the start of a run, and finds again what it touches.
-void ExactWorld::changeGravity(const Instant& time) {
+// Where gravity changes, or the speed of something driven. All that can move flies anew, as at the start of a
+// run, and finds again what it touches.
+void ExactWorld::jump(const Instant& time) {
   Encounter all;
   all.time = time;
   for (int rank = 0; rank < bodies_.count(); ++rank) {
@@ -145,7 +149,7 @@ void ExactWorld::changeGravity(const Instant& time) {
     }
   }
   bodies_.account().parted();
-  changing_->changeGravity();
+  changing_->jump();
   bodies_.feelGravity();
   for (const EncounterBody& body : all.bodies) {
     if (body.mover->isHeld()) {
@@ -157,6 +161,12 @@ void ExactWorld::changeGravity(const Instant& time) {
     body.mover->group.reset();
     bodies_.file(rank, body.before.pose.position);
     bodies_.fly(rank, time, body.before, body.attitude);
+  }
+  for (int rank = 0; rank < bodies_.count(); ++rank) {
+    const Course& course = bodies_[rank].body->course;
+    if (!course.empty() && partAt(course, time.hi).from == time.hi) {
+      bodies_.drive(rank, time);
+    }
   }
   bodies_.account().parted();
   for (int rank = 0; rank < bodies_.count(); ++rank) {
