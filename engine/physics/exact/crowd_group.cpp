@@ -47,7 +47,7 @@ void CrowdGroup::form(Bodies& bodies, const Encounter& encounter) {
     if (!crowd) {
       crowd = met;
     } else {
-      crowd->merge(*met);
+      crowd->merge(*met, encounter.time);
     }
   }
   if (!crowd) {
@@ -92,6 +92,12 @@ void CrowdGroup::keepPlace(int rank, std::size_t place) {
 void CrowdGroup::enlist(int rank, const Instant& time, const BodyState& state, const Quat& attitude) {
   Mover& body = bodies_[rank];
   if (has(body) || !body.isBox()) {  // it has all walls
+    return;
+  }
+  if (body.isDriven()) {
+    if (std::find(ranks_.begin(), ranks_.end(), rank) == ranks_.end()) {
+      keepPlace(rank, crowd_.admitDriven(listedOf(body), *body.part, time.hi));
+    }
     return;
   }
   if (!body.moves() && (body.isHeld() || !isJointed(bodies_.world(), body.listed.value))) {
@@ -155,7 +161,7 @@ void CrowdGroup::enlistAtRest(int rank) {
 }
 
 // Takes over all members of another crowd, whose step has ended.
-void CrowdGroup::merge(CrowdGroup& other) {
+void CrowdGroup::merge(CrowdGroup& other, const Instant& time) {
   std::vector<std::optional<std::size_t>> clusters(other.ranks_.size());
   for (std::size_t place = 0; place < other.ranks_.size(); ++place) {
     const int rank = other.ranks_[place];
@@ -163,6 +169,10 @@ void CrowdGroup::merge(CrowdGroup& other) {
       continue;
     }
     const Mover& body = bodies_[rank];
+    if (body.isDriven()) {
+      enlist(rank, time, {}, {});
+      continue;
+    }
     if (body.isHeld()) {
       enlistAtRest(rank);
       continue;
@@ -208,7 +218,7 @@ void CrowdGroup::admitOutsider(int rank, const Instant& time) {
   for (const std::shared_ptr<CrowdGroup>& other : with.crowds) {
     if (other.get() != this) {
       other->endAt(time);
-      merge(*other);
+      merge(*other, time);
     }
   }
   for (const EncounterBody& body : with.bodies) {
@@ -327,6 +337,7 @@ void CrowdGroup::endAt(const Instant& time) {
 // Of the joints that act then, of the members of now; in equal steps until one of them changes: speeds, as
 // motors are told them, are means over a step, and nothing is left of them in a very short one.
 double CrowdGroup::step(const Instant& from, double most) {
+  crowd_.setTime(from.hi);
   crowd_.articulations().list(from.hi);
   const double change = untilChange(bodies_, crowd_, from);
   if (change > kMoment && std::isfinite(change)) {
@@ -337,6 +348,7 @@ double CrowdGroup::step(const Instant& from, double most) {
 
 // Where new members are joined, and turn fast, a shorter one.
 double CrowdGroup::stepAgain(const Instant& from, double length) {
+  crowd_.setTime(from.hi);
   crowd_.articulations().list(from.hi);
   return crowd_.stepAgain(crowd_.articulations().any() ? crowd_.nextLength(length) : length);
 }

@@ -54,6 +54,13 @@ PileBody pileBody(const Body& body, const BodyState& state) {
   return result;
 }
 
+void putDriven(PileBody& body, double time) {
+  const Kinematics now = body.part->at(time);
+  body.position = now.pose.position;
+  body.attitude = unit<double>(Quat(now.pose.worldFromBody));
+  body.axes = body.attitude.toRotationMatrix();
+}
+
 PileBody pileBody(const Wall& wall) {
   return {.halfSpace = &wall,
           .length = std::numeric_limits<double>::infinity(),
@@ -101,6 +108,13 @@ Vec3 freeSpinRate(const PileBody& body, const Vec3& omega) {
   const Mat3 axes = body.principalAxes();
   const Vec3 spin = axes.transpose() * omega;
   return axes * body.inverseInertiaBody.cwiseProduct(body.inertiaBody.cwiseProduct(spin).cross(spin));
+}
+
+Vec3 spinBetween(const Quat& from, const Quat& to, double length) {
+  const Quat turn = from.conjugate() * to;
+  const double z = turn.vec().squaredNorm();
+  const double angle = 2 * (1 + z * (1.0 / 6 + z * (3.0 / 40 + z * (15.0 / 336))));
+  return (turn.w() < 0 ? -angle : angle) / length * turn.vec();
 }
 
 void turnBy(PileBody& body, const Vec3& rotation) { setAttitude(body, turnOf(rotation) * body.attitude); }

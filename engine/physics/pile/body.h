@@ -35,13 +35,16 @@ struct PileBody {
   double turned = 0;   ///< [m] the part of `path` that its rotation about its centre accounts for
   double turning = 0;  ///< [m] the same for the next substep
   int cluster = -1;    ///< if asleep: its cluster; all bodies of a cluster wake together
+  const CoursePart* part = nullptr;  ///< if it is driven; its velocities are then the means of the step
   bool held = false;
   bool asleep = false;
   bool absent = false;  ///< a place that was left
 
   bool isBox() const { return halfSpace == nullptr; }
-  /// Does not move in this step.
+  bool isDriven() const { return part != nullptr; }
+  /// No force moves it in this step; and it is not driven either.
   bool still() const { return held || asleep || absent; }
+  bool stays() const { return still() && !isDriven(); }
 
   /// [m] World: from the centre of mass to the middle of the box, and the middle's place.
   Vec3 boxArm() const { return center == nullptr ? Vec3(Vec3::Zero()) : Vec3(axes * *center); }
@@ -58,6 +61,9 @@ struct PileBody {
 PileBody pileBody(const Body& body, const BodyState& state);
 PileBody pileBody(const Wall& wall);
 BodyState stateOf(const PileBody& body);
+
+/// Puts what is driven where it is at a time [s].
+void putDriven(PileBody& body, double time);
 
 /// ω = A Ī⁻¹ Aᵀ L (Eq. 18).
 void deriveOmega(PileBody& body);
@@ -77,6 +83,10 @@ void turnFree(PileBody& body, double h);
 
 /// [rad/s²] ω̇ = I⁻¹ (L × ω) of a free body with that ω, world.
 Vec3 freeSpinRate(const PileBody& body, const Vec3& omega);
+
+/// [rad/s] Body frame: of the turn from the one to the other in that time. Its angle is 2 asin of the length
+/// of the vector part, here to eighth order.
+Vec3 spinBetween(const Quat& from, const Quat& to, double length);
 
 /// Rotates by a small rotation vector in the world frame, as the position projection does.
 void turnBy(PileBody& body, const Vec3& rotation);

@@ -60,6 +60,15 @@ std::size_t Crowd::admit(std::size_t body, const BodyState& state, const Quat& a
   return index;
 }
 
+std::size_t Crowd::admitDriven(std::size_t body, const CoursePart& part, double time) {
+  PileBody added = pileBody(members_.world.bodies[body], {});
+  added.part = &part;
+  putDriven(added, time);
+  added.velocity = part.at(time).velocity;
+  added.omega = part.at(time).angularVelocity;
+  return place(added, body);
+}
+
 std::size_t Crowd::admitAtRest(std::size_t body, const Pose& pose, std::optional<std::size_t> cluster) {
   PileBody added = pileBody(members_.world.bodies[body], {.pose = pose});
   added.asleep = !added.held;
@@ -104,7 +113,7 @@ BodyState Crowd::stateAtEnd(std::size_t place) const {
 double Crowd::fastest() const {
   double fastest = 0;
   for (const PileBody& body : members_.bodies) {
-    fastest = body.still() ? fastest : std::max(fastest, body.velocity.norm());
+    fastest = body.stays() ? fastest : std::max(fastest, body.velocity.norm());
   }
   return fastest;
 }
@@ -140,10 +149,14 @@ double Crowd::chooseLength() const {
   double bending = 0;  // [m/s²]
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const PileBody& body = members_[i];
-    if (!body.still()) {
+    if (!body.stays()) {
       const double times = articulations_.isJoined(static_cast<int>(i)) ? kJoinedBend : 1;
       fastest = std::max(fastest, (body.velocity.norm() + longest * members_.gravity) / body.length);
       bending = std::max(bending, times * body.radius * body.omega.squaredNorm());
+      if (body.isDriven()) {
+        const MotionRates rates = boundsOf(body.part->motion);
+        bending = std::max(bending, rates.acceleration + body.radius * rates.angularAcceleration);
+      }
     }
   }
   double h = longest;
@@ -162,6 +175,7 @@ double Crowd::chooseLength() const {
 void Crowd::take(double length, Shifts shifts) {
   members_.h = length;
   members_.span = 0.5 * (memory_.length + length);
+  members_.drive();
   loads_.find();
   sleep_.wakeDisturbed();
   do {

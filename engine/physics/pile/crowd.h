@@ -72,12 +72,16 @@ class Crowd {
   /// long its last step was.
   std::size_t admit(std::size_t body, const BodyState& state, const Quat& attitude,
                     double past = std::numeric_limits<double>::max());
+  /// Adds one that is driven so, from a time [s] on.
+  std::size_t admitDriven(std::size_t body, const CoursePart& part, double time);
   /// Adds one that sleeps until it is pushed, together with its `cluster`: a place, perhaps its own.
   std::size_t admitAtRest(std::size_t body, const Pose& pose, std::optional<std::size_t> cluster);
   void dismiss(std::size_t place);
 
   /// Advances by one step of at most `most` [s] and returns its length.
   double step(double most);
+  /// [s] When the next step begins.
+  void setTime(double time) { members_.time = time; }
   /// Takes the last step again with that length [s], shorter than it was, and with those admitted since, who
   /// begin where it began. Returns its length, perhaps shorter still.
   double stepAgain(double length);

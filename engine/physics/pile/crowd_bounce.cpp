@@ -192,19 +192,18 @@ void CrowdBounces::giveBack(PileSolver& solver) const {
   }
 }
 
-// [J] That friction of a surface that moves did in the step: what impulses take is that more than what is
-// missing.
+// [J] That a surface that moves did in the step: what impulses take is that more than what is missing.
 double CrowdBounces::workOfBelt(const ReachedPoint& point, const PileSolver& solver) const {
   const PileManifold& manifold = contacts_[point.slot];
   const PilePoint& at = manifold.points[careen::at(point.index)];
-  if (!isOnBelt(manifold) || at.row < 0) {
+  if (!isOnBelt(members_, manifold) || at.row < 0) {
     return 0;
   }
   const ContactFrame& frame = manifold.frameOf(point.index);
-  const Vec3 friction =
-      solver.tangential1(at.row) * frame.tangent1 + solver.tangential2(at.row) * frame.tangent2;
-  return dot(friction,
-             manifold.material.surface.along(frame.normal, members_[manifold.a].position + at.world));
+  const bool isDriven = members_[manifold.a].isDriven() || members_[manifold.b].isDriven();
+  const Vec3 impulse = frame.inWorld(
+      {isDriven ? solver.normalImpulse(at.row) : 0, solver.tangential1(at.row), solver.tangential2(at.row)});
+  return dot(impulse, velocityOfBelt(members_, manifold, frame, at));
 }
 
 void CrowdBounces::addEnergies(const ReachedBody& reached, const PileSolver& solver, Energies& all) const {

@@ -62,8 +62,9 @@ bool CrowdSleep::wouldPush(const PilePair& pair) const {
   const PileBody& a = members_[pair.a];
   const PileBody& b = members_[pair.b];
   const auto speed = [&](const PileBody& body, const Vec3& arm) {
-    return body.still() ? Vec3(Vec3::Zero())
-                        : Vec3(body.velocity + members_.h * members_.world.gravity + body.omega.cross(arm));
+    return body.isDriven() ? Vec3(body.velocity + body.omega.cross(arm))
+           : body.still()  ? Vec3(Vec3::Zero())
+                          : Vec3(body.velocity + members_.h * members_.world.gravity + body.omega.cross(arm));
   };
   const double heavy = a.asleep ? a.inverseMass : b.inverseMass;
   const double light = a.asleep ? b.inverseMass : a.inverseMass;
@@ -210,6 +211,7 @@ void CrowdSleep::wakeNeighbours() {
 // Bodies that push each other, or sleep together.
 void CrowdSleep::findClusters() {
   grip_.assign(members_.size(), kFrictionless);
+  isCarried_.assign(members_.size(), 0);
   clusters_.reset(members_.size());
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (members_[i].asleep) {
@@ -225,6 +227,8 @@ void CrowdSleep::findClusters() {
     const std::size_t b = at(manifold.b);
     grip_[a] = std::max(grip_[a], manifold.material.friction);
     grip_[b] = std::max(grip_[b], manifold.material.friction);
+    isCarried_[a] = isCarried_[a] != 0 || members_[b].isDriven() ? 1 : 0;
+    isCarried_[b] = isCarried_[b] != 0 || members_[a].isDriven() ? 1 : 0;
     if (!members_[a].held && !members_[b].held) {
       clusters_.join(a, b);
     }
@@ -295,11 +299,12 @@ void CrowdSleep::freeze(std::size_t place, int cluster) {
 }
 
 // At rest, or nearly so: the forces of the last step balanced but for that part of gravity, and its speed is
-// that part of what friction stops in a step.
+// that part of what friction stops in a step. What touches something driven never is.
 bool CrowdSleep::isQuiet(std::size_t place, double imbalance, double part) const {
   const PileBody& body = members_[place];
   const double speed = body.velocity.norm() + body.radius * body.omega.norm();
-  return body.still() || (members_.ways[place].unrest <= imbalance * members_.gravity * members_.h &&
+  return body.still() || (isCarried_[place] == 0 &&
+                          members_.ways[place].unrest <= imbalance * members_.gravity * members_.h &&
                           speed <= part * grip_[place] * members_.gravity * members_.h);
 }
 

@@ -61,10 +61,11 @@ PilePairs::Box PilePairs::sweptBox(const PileBody& body, const Vec3& gravity, do
   const Vec3 reach = body.axes.cwiseAbs() * body.halfExtents;
   const Vec3 middle = body.middle();
   Box box{.low = middle - reach, .high = middle + reach};
-  if (body.still()) {
+  if (body.stays()) {
     return box;
   }
-  const Vec3 moved = time * (body.velocity + (time + body.behind) * gravity);
+  const Vec3 moved =
+      time * (body.isDriven() ? body.velocity : Vec3(body.velocity + (time + body.behind) * gravity));
   const double turned = body.radius * std::min(1.0, body.omega.norm() * time);
   box.low += moved.cwiseMin(0) - Vec3::Constant(turned);
   box.high += moved.cwiseMax(0) + Vec3::Constant(turned);
@@ -79,7 +80,7 @@ bool PilePairs::findLeft(std::span<const PileBody> bodies, const Vec3& gravity, 
     for (std::size_t i = first; i < last; ++i) {
       const PileBody& body = bodies[i];
       const bool stays = body.absent || !body.isBox() ||
-                         (body.still() && fat_[i].low.x() <= fat_[i].high.x()) ||
+                         (body.stays() && fat_[i].low.x() <= fat_[i].high.x()) ||
                          fat_[i].holds(sweptBox(body, gravity, time));
       left_[i] = stays ? 0 : 1;
       if (!stays) {
