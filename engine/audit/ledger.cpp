@@ -302,14 +302,14 @@ void Books::check() {
   }
 }
 
-// A wall whose surface moves does the work of its friction, which is all that acted along it from outside but
-// is known; others may have done any.
+// A wall whose surface moves, or a box that moves evenly, does the work of all that acted along its way from
+// outside but is known; others may have done any.
 void Books::addWorkOfBelts(const Holdings& now, const External& external) {
   const bool isMoved = external.belt && !external.belt->isZero(0);
   if (external.hasUnknownBelts || (isMoved && external.isHeld)) {
     due_.energy = std::max(due_.energy, now.energy);
   } else if (isMoved) {
-    give(external.belt->dot(now.momentum - momentumBefore_ - external.impulse));
+    give(external.work + external.belt->dot(now.momentum - momentumBefore_ - external.impulse));
   }
   momentumBefore_ = now.momentum;
 }
