@@ -179,6 +179,9 @@ void CrowdBounces::giveBack(PileSolver& solver) const {
       Energies& all = energies[together.root(at(body))];
       all.taken += point.taken;
       all.before += workOfBelt(point, solver);
+      const double added = (point.whole - point.plastic) * drivenSpeed(point);
+      all.before -= added;
+      all.slope -= added;
     }
   }
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -204,6 +207,17 @@ double CrowdBounces::workOfBelt(const ReachedPoint& point, const PileSolver& sol
   const Vec3 impulse = frame.inWorld(
       {isDriven ? solver.normalImpulse(at.row) : 0, solver.tangential1(at.row), solver.tangential2(at.row)});
   return dot(impulse, velocityOfBelt(members_, manifold, frame, at));
+}
+
+// [m/s] Along the normal, of something driven: what restitution adds is relative to it, and none of what it
+// did before.
+double CrowdBounces::drivenSpeed(const ReachedPoint& point) const {
+  const PileManifold& manifold = contacts_[point.slot];
+  if (!members_[manifold.a].isDriven() && !members_[manifold.b].isDriven()) {
+    return 0;
+  }
+  return dot(point.normal, velocityOfBelt(members_, manifold, manifold.frameOf(point.index),
+                                          manifold.points[careen::at(point.index)]));
 }
 
 void CrowdBounces::addEnergies(const ReachedBody& reached, const PileSolver& solver, Energies& all) const {
