@@ -203,19 +203,6 @@ void Bodies::rest(int rank, const Instant& time, const Pose& pose) {
   sleep(rank, time, pose);
 }
 
-void Bodies::drive(int rank, const Instant& time) {
-  Mover& body = (*this)[rank];
-  const CoursePart& part = partAt(body.body->course, time.hi);
-  if (!part.motion.moves()) {
-    rest(rank, time, part.motion.at(0).pose);
-    return;
-  }
-  begins(rank, time);
-  body.drive(part);
-  recorder_.moves(body.listed, time.hi, part.motion);
-  noteSpeed(body);
-}
-
 void Bodies::stand(int rank, const Instant& from, const Instant& until, const Vec3& position,
                    const Quat& attitude) {
   const double length = secondsBetween(from, until);
@@ -362,10 +349,26 @@ void Bodies::cross(int rank) {
   predict(rank);
 }
 
-void Bodies::feelGravity() {
+void Bodies::feelJump(const Instant& time) {
   timeScale_ = timeScaleOf(world_, tolerance_);
   longestStep_ = longestStepOf(world_);
   fastestAtZero_ = -std::numeric_limits<double>::infinity();
+  for (int rank = 0; rank < count(); ++rank) {
+    Mover& body = (*this)[rank];
+    const Course& course = body.body->course;
+    const CoursePart* const part = course.empty() ? nullptr : &partAt(course, time.hi);
+    if (part == nullptr || part->from != time.hi) {
+      continue;
+    }
+    if (!part->motion.moves()) {
+      rest(rank, time, part->motion.at(0).pose);
+      continue;
+    }
+    begins(rank, time);
+    body.drive(*part);
+    recorder_.moves(body.listed, time.hi, part->motion);
+    noteSpeed(body);
+  }
 }
 
 void Bodies::file(int rank, const Vec3& position) {

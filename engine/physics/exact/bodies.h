@@ -72,8 +72,6 @@ class Bodies {
   /// What a body does from then on.
   void fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude);
   void rest(int rank, const Instant& time, const Pose& pose);
-  /// As its course is at that moment, at which a part of it begins.
-  void drive(int rank, const Instant& time);
   /// It does not move between two moments, through all the hops that are too short to follow: none is as high
   /// as its rounding.
   void stand(int rank, const Instant& from, const Instant& until, const Vec3& position, const Quat& attitude);
@@ -93,8 +91,9 @@ class Bodies {
   void predictAround(int rank);
   /// It has entered the cell that it was to cross into.
   void cross(int rank);
-  /// Gravity has changed, and all that can move will fly anew.
-  void feelGravity();
+  /// Gravity has changed, or what is driven begins another part of its course; all that can move will fly
+  /// anew.
+  void feelJump(const Instant& time);
   /// Others find it from now on where that position [m] is.
   void file(int rank, const Vec3& position);
   void findCrossing(int rank);

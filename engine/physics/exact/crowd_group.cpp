@@ -96,7 +96,8 @@ void CrowdGroup::enlist(int rank, const Instant& time, const BodyState& state, c
   }
   if (body.isDriven()) {
     if (std::find(ranks_.begin(), ranks_.end(), rank) == ranks_.end()) {
-      keepPlace(rank, crowd_.admitDriven(listedOf(body), *body.part, time.hi));
+      const BodyState now = body.stateAt(time);
+      keepPlace(rank, crowd_.admit(listedOf(body), now, Quat(now.pose.worldFromBody), 0, body.part));
     }
     return;
   }
@@ -337,18 +338,16 @@ void CrowdGroup::endAt(const Instant& time) {
 // Of the joints that act then, of the members of now; in equal steps until one of them changes: speeds, as
 // motors are told them, are means over a step, and nothing is left of them in a very short one.
 double CrowdGroup::step(const Instant& from, double most) {
-  crowd_.setTime(from.hi);
   crowd_.articulations().list(from.hi);
   const double change = untilChange(bodies_, crowd_, from);
   if (change > kMoment && std::isfinite(change)) {
     most = std::min(most, change / std::ceil((1 - kMoment) * change / crowd_.nextLength(most)));
   }
-  return crowd_.step(most);
+  return crowd_.step(most, from.hi);
 }
 
 // Where new members are joined, and turn fast, a shorter one.
 double CrowdGroup::stepAgain(const Instant& from, double length) {
-  crowd_.setTime(from.hi);
   crowd_.articulations().list(from.hi);
   return crowd_.stepAgain(crowd_.articulations().any() ? crowd_.nextLength(length) : length);
 }
@@ -395,7 +394,7 @@ void CrowdGroup::go(const Instant& time) {
   admitNear(time, crowd_.nextLength(most));
   bodies_.account().mayLose();
   for (std::size_t place = 0; place < ranks_.size(); ++place) {
-    if (ranks_[place] >= 0 && !crowd_.body(place).held && !crowd_.sleeps(place)) {
+    if (ranks_[place] >= 0 && !crowd_.body(place).held() && !crowd_.sleeps(place)) {
       bodies_.account().departs(listedOf(bodies_[ranks_[place]]), crowd_.stateAtVelocity(place));
     }
   }

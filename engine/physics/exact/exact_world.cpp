@@ -98,11 +98,13 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
 }
 
 void ExactWorld::begin() {
+  bodies_.feelJump({});
   for (int rank = 0; rank < bodies_.count(); ++rank) {
     const BodyState& initial = bodies_[rank].body->initial;
     if (!bodies_[rank].body->course.empty()) {
-      bodies_.drive(rank, {});
-    } else if (bodies_[rank].isHeld()) {
+      continue;
+    }
+    if (bodies_[rank].isHeld()) {
       bodies_.rest(rank, {}, initial.pose);
     } else {
       bodies_.fly(rank, {}, initial, Quat(initial.pose.worldFromBody).normalized());
@@ -150,7 +152,7 @@ void ExactWorld::jump(const Instant& time) {
   }
   bodies_.account().parted();
   changing_->jump();
-  bodies_.feelGravity();
+  bodies_.feelJump(time);
   for (const EncounterBody& body : all.bodies) {
     if (body.mover->isHeld()) {
       continue;
@@ -161,12 +163,6 @@ void ExactWorld::jump(const Instant& time) {
     body.mover->group.reset();
     bodies_.file(rank, body.before.pose.position);
     bodies_.fly(rank, time, body.before, body.attitude);
-  }
-  for (int rank = 0; rank < bodies_.count(); ++rank) {
-    const Course& course = bodies_[rank].body->course;
-    if (!course.empty() && partAt(course, time.hi).from == time.hi) {
-      bodies_.drive(rank, time);
-    }
   }
   bodies_.account().parted();
   for (int rank = 0; rank < bodies_.count(); ++rank) {

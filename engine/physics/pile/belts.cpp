@@ -7,7 +7,7 @@ namespace careen {
 Moving motionOfBelt(const CrowdMembers& members, const PileManifold& manifold, const ContactFrame& frame,
                     const PilePoint& point) {
   const Vec3& n = frame.normal;
-  const bool isOfB = members[manifold.b].held;
+  const bool isOfB = members[manifold.b].held();
   const PileBody& held = members[isOfB ? manifold.b : manifold.a];
   if (held.isDriven()) {
     return {.velocity = held.velocity, .omega = held.omega};
@@ -35,8 +35,8 @@ Vec3 velocityOfBelt(const CrowdMembers& members, const PileManifold& manifold, c
 }
 
 BeltBlock bodiesOnBelt(const CrowdMembers& members, const PileManifold& manifold, int belt) {
-  return members[manifold.b].held ? BeltBlock{.a = manifold.a, .b = belt}
-                                  : BeltBlock{.a = belt, .b = manifold.b};
+  return members[manifold.b].held() ? BeltBlock{.a = manifold.a, .b = belt}
+                                    : BeltBlock{.a = belt, .b = manifold.b};
 }
 
 }  // namespace careen

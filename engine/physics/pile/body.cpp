@@ -24,6 +24,8 @@ Quat turnOf(const Vec3& theta) {
 
 }  // namespace
 
+const CoursePart kStillPart;
+
 void setAttitude(PileBody& body, const Quat& attitude) {
   body.attitude = unit<double>(attitude);
   body.axes = body.attitude.toRotationMatrix();
@@ -45,8 +47,8 @@ PileBody pileBody(const Body& body, const BodyState& state) {
                   .axes = state.pose.worldFromBody,
                   .velocity = state.velocity,
                   .angularMomentum = state.angularMomentum,
-                  .held = isImmovable(body.mass)};
-  if (result.held) {
+                  .part = isImmovable(body.mass) ? &kStillPart : nullptr};
+  if (result.held()) {
     result.velocity = Vec3::Zero();
     result.angularMomentum = Vec3::Zero();
   }
@@ -65,7 +67,7 @@ PileBody pileBody(const Wall& wall) {
   return {.halfSpace = &wall,
           .length = std::numeric_limits<double>::infinity(),
           .material = wall.material,
-          .held = true};
+          .part = &kStillPart};
 }
 
 BodyState stateOf(const PileBody& body) {

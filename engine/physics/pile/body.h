@@ -8,6 +8,9 @@
 
 namespace careen {
 
+/// Of what is held and does not move.
+extern const CoursePart kStillPart;
+
 /// A body of a pile, a box or a half-space: the parts of Body and BodyState that the inner loops read, and
 /// its motion between contacts.
 struct PileBody {
@@ -35,15 +38,17 @@ struct PileBody {
   double turned = 0;   ///< [m] the part of `path` that its rotation about its centre accounts for
   double turning = 0;  ///< [m] the same for the next substep
   int cluster = -1;    ///< if asleep: its cluster; all bodies of a cluster wake together
-  const CoursePart* part = nullptr;  ///< if it is driven; its velocities are then the means of the step
-  bool held = false;
+  /// Of what is held: how it moves, or kStillPart. Of what is driven the velocities are the means of the
+  /// step.
+  const CoursePart* part = nullptr;
   bool asleep = false;
   bool absent = false;  ///< a place that was left
 
   bool isBox() const { return halfSpace == nullptr; }
-  bool isDriven() const { return part != nullptr; }
+  bool held() const { return part != nullptr; }
+  bool isDriven() const { return held() && part != &kStillPart; }
   /// No force moves it in this step; and it is not driven either.
-  bool still() const { return held || asleep || absent; }
+  bool still() const { return held() || asleep || absent; }
   bool stays() const { return still() && !isDriven(); }
 
   /// [m] World: from the centre of mass to the middle of the box, and the middle's place.

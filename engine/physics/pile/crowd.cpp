@@ -51,27 +51,24 @@ Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team)
 
 // ---- Members.
 
-std::size_t Crowd::admit(std::size_t body, const BodyState& state, const Quat& attitude, double past) {
+std::size_t Crowd::admit(std::size_t body, const BodyState& state, const Quat& attitude, double past,
+                         const CoursePart* part) {
   PileBody added = pileBody(members_.world.bodies[body], state);
   added.attitude = attitude;
-  atRest_ = atRest_ && added.held;
+  if (part != nullptr) {
+    added.part = part;
+    added.velocity = state.velocity;
+    added.omega = state.angularMomentum;
+  }
+  atRest_ = atRest_ && added.held();
   const std::size_t index = place(added, body);
   memory_.places[index].past = past;
   return index;
 }
 
-std::size_t Crowd::admitDriven(std::size_t body, const CoursePart& part, double time) {
-  PileBody added = pileBody(members_.world.bodies[body], {});
-  added.part = &part;
-  putDriven(added, time);
-  added.velocity = part.at(time).velocity;
-  added.omega = part.at(time).angularVelocity;
-  return place(added, body);
-}
-
 std::size_t Crowd::admitAtRest(std::size_t body, const Pose& pose, std::optional<std::size_t> cluster) {
   PileBody added = pileBody(members_.world.bodies[body], {.pose = pose});
-  added.asleep = !added.held;
+  added.asleep = !added.held();
   const std::size_t index = place(added, body);
   members_[index].cluster = static_cast<int>(cluster.value_or(index));
   return index;
@@ -128,7 +125,8 @@ double Crowd::penetration() const {
 
 // ---- A step.
 
-double Crowd::step(double most) {
+double Crowd::step(double most, double time) {
+  members_.time = time;
   if (++figures_.steps % kStepsPerSorting == 0) {
     contacts_.sort();
   }

@@ -16,7 +16,7 @@ constexpr double kLasting = 4;  // [1] of gravity × step: larger changes of vel
 CrowdExtent CrowdPath::extent(double length) const {
   CrowdExtent extent;
   for (const PileBody& body : members_.bodies) {
-    if (!body.absent && !body.held) {
+    if (!body.absent && !body.held()) {
       const double fall = (length + body.behind) * members_.gravity;
       const double way = body.asleep ? 0 : length * (body.velocity.norm() + fall);
       extent.include(body.position, body.radius + way);

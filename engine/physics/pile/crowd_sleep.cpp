@@ -85,7 +85,7 @@ bool CrowdSleep::wouldPush(const PilePair& pair) const {
 bool CrowdSleep::isHalfAsleep(const PileManifold& manifold) const {
   const PileBody& a = members_[manifold.a];
   const PileBody& b = members_[manifold.b];
-  return !a.held && !b.held && a.asleep != b.asleep;
+  return !a.held() && !b.held() && a.asleep != b.asleep;
 }
 
 // Of the two of a manifold that is half asleep.
@@ -229,7 +229,7 @@ void CrowdSleep::findClusters() {
     grip_[b] = std::max(grip_[b], manifold.material.friction);
     isCarried_[a] = isCarried_[a] != 0 || members_[b].isDriven() ? 1 : 0;
     isCarried_[b] = isCarried_[b] != 0 || members_[a].isDriven() ? 1 : 0;
-    if (!members_[a].held && !members_[b].held) {
+    if (!members_[a].held() && !members_[b].held()) {
       clusters_.join(a, b);
     }
   }
@@ -242,7 +242,9 @@ void CrowdSleep::joinArticulations() {
     return;
   }
   DisjointSets joined(members_.size());
-  const auto moves = [&](int place) { return place < CrowdArticulations::kOutside && !members_[place].held; };
+  const auto moves = [&](int place) {
+    return place < CrowdArticulations::kOutside && !members_[place].held();
+  };
   for (const CrowdArticulations::Listed& joint : articulations_.joints()) {
     if (moves(joint.a) && moves(joint.b)) {
       joined.join(at(joint.a), at(joint.b));
@@ -268,7 +270,7 @@ bool CrowdSleep::freeze() {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const PileBody& body = members_[i];
     const std::size_t root = clusters_.root(i);
-    if (body.held || body.absent || (body.asleep && quiet[root] == 0)) {
+    if (body.held() || body.absent || (body.asleep && quiet[root] == 0)) {
       continue;
     }
     if (quiet[root] == 0) {
@@ -347,7 +349,7 @@ void CrowdSleep::keepFar(std::vector<char>& marked) const {
       const PileManifold& manifold = contacts_[slot];
       const std::size_t a = at(manifold.a);
       const std::size_t b = at(manifold.b);
-      if (!members_[a].held && !members_[b].held) {
+      if (!members_[a].held() && !members_[b].held()) {
         layer[b] = layer[a] == next - 1 ? std::min(layer[b], next) : layer[b];
         layer[a] = layer[b] == next - 1 ? std::min(layer[a], next) : layer[a];
       }

@@ -175,7 +175,7 @@ void PilePairs::refit() {
 // A pair of two bodies that both left is found from the lower place.
 void PilePairs::findPartners(std::span<const PileBody> bodies, int body) {
   const Box& box = fat_[at(body)];
-  const bool held = bodies[at(body)].held;
+  const bool held = bodies[at(body)].held();
   std::array<int, kDeepest> stack;
   std::size_t size = 0;
   stack[size++] = 0;
@@ -193,7 +193,7 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, int body) {
     for (int k = node.first; k < node.first + node.count; ++k) {
       const int other = order_[at(k)];
       const bool twice = left_[at(other)] != 0 && other < body;
-      if (other != body && !twice && !(held && bodies[at(other)].held) && box.overlaps(fat_[at(other)]) &&
+      if (other != body && !twice && !(held && bodies[at(other)].held()) && box.overlaps(fat_[at(other)]) &&
           (!mayTouch_ || mayTouch_(body, other))) {
         found_.push_back(keyOf(std::min(body, other), std::max(body, other)));
       }
