@@ -87,6 +87,17 @@ double changeAtRest(const World& world, const ChangingWorld* changing, const Mov
   return change;
 }
 
+// All that move look for what is driven, and a crowd sees to its members.
+bool looksFor(const Mover& driven, const Mover& other) {
+  if (other.moves() || other.isHeld()) {
+    return false;
+  }
+  const auto isOf = [&](const ContactGroup& group) {
+    return std::find(group.ranks().begin(), group.ranks().end(), driven.rank) != group.ranks().end();
+  };
+  return !other.group || !isOf(*other.group);
+}
+
 void takeSooner(std::optional<Event>& first, const std::optional<Event>& candidate) {
   if (candidate && (!first || earlier(candidate->time, first->time))) {
     first = candidate;
@@ -319,8 +330,7 @@ void Bodies::predict(int rank) {
                             .body = rank});
   }
   for (const int candidate : around(rank)) {
-    // All that move look for what is driven.
-    if (body.isDriven() && ((*this)[candidate].moves() || (*this)[candidate].isHeld())) {
+    if (body.isDriven() && !looksFor(body, (*this)[candidate])) {
       continue;
     }
     if (mayTouch(world_, body.listed.value, (*this)[candidate].listed.value) &&

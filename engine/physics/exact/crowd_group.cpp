@@ -57,6 +57,11 @@ void CrowdGroup::form(Bodies& bodies, const Encounter& encounter) {
     crowd->enlist(body.mover->rank, encounter.time, body.before, body.attitude);
   }
   crowd->go(encounter.time);
+  for (const EncounterBody& body : encounter.bodies) {
+    if (body.mover->isDriven()) {
+      bodies.predict(body.mover->rank);
+    }
+  }
 }
 
 // Whom it meets within a step is a member from the start of that step, if it has been in Flight since: the
@@ -306,6 +311,11 @@ std::optional<Encounter> CrowdGroup::advance(const Instant& time) {
     for (const int rank : ranks_) {
       if (rank >= 0) {
         bodies_[rank].group.reset();
+      }
+    }
+    for (const int rank : ranks_) {
+      if (rank >= 0 && bodies_[rank].isDriven()) {
+        bodies_.predict(rank);
       }
     }
   } else {

@@ -60,7 +60,7 @@ std::size_t Crowd::admit(std::size_t body, const BodyState& state, const Quat& a
     added.velocity = state.velocity;
     added.omega = state.angularMomentum;
   }
-  atRest_ = atRest_ && added.held();
+  atRest_ = atRest_ && added.stays();
   const std::size_t index = place(added, body);
   memory_.places[index].past = past;
   return index;
