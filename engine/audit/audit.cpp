@@ -146,7 +146,7 @@ void Auditor::checkWalls(std::size_t index, const Pose& pose, double time) {
     return;
   }
   for (std::size_t wall = 0; wall < run_.world.walls.size(); ++wall) {
-    const double depth = -separationOf(auditBox(body(index), pose), run_.world.walls[wall]);
+    const double depth = -separationOf(body(index), pose, run_.world.walls[wall]);
     if (!(depth <= 0)) {
       found(AuditKind::kWallOverlap, placeRounding(body(index), pose.position),
             {.size = depth, .time = time, .bodies = {index}, .wall = wall});
@@ -159,7 +159,7 @@ void Auditor::checkPair(std::size_t a, const Pose& poseA, std::size_t b, const P
       !mayTouch(run_.world, static_cast<int>(a), static_cast<int>(b))) {
     return;
   }
-  const double depth = -separationOf(auditBox(body(a), poseA), auditBox(body(b), poseB));
+  const double depth = -separationOf(body(a), poseA, body(b), poseB);
   if (!(depth <= 0)) {
     found(AuditKind::kBoxOverlap,
           placeRounding(body(a), poseA.position) + placeRounding(body(b), poseB.position),

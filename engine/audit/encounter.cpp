@@ -116,19 +116,21 @@ double energyOf(const ObservedEncounter& encounter, const BodyState& body, const
 }  // namespace
 
 double gapOf(const ObservedEncounter& encounter, const BodyState& body, const BodyState& other) {
-  const AuditBox box = auditBox(*encounter.body, body.pose);
-  return encounter.wall != nullptr ? separationOf(box, *encounter.wall)
-                                   : separationOf(box, auditBox(*encounter.other, other.pose));
+  return encounter.wall != nullptr ? separationOf(*encounter.body, body.pose, *encounter.wall)
+                                   : separationOf(*encounter.body, body.pose, *encounter.other, other.pose);
 }
 
 std::optional<Touch> touchOf(const ObservedEncounter& encounter, const BodyState& body,
                              const BodyState& other) {
-  const AuditBox box = auditBox(*encounter.body, body.pose);
+  const std::vector<AuditBox> boxes = auditBoxes(*encounter.body, body.pose);
+  const AuditBox& box = boxes.front();
   Touch touch;
-  const auto take = [&](const AuditBox& from, double sign, double plane) {
+  const auto take = [&](std::span<const AuditBox> of, double sign, double plane) {
     std::vector<Touch::Point> points;
-    for (const Vec3& place : cornersOf(from)) {
-      points.push_back({.place = place, .gap = sign * (touch.normal.dot(place) - plane)});
+    for (const AuditBox& from : of) {
+      for (const Vec3& place : cornersOf(from)) {
+        points.push_back({.place = place, .gap = sign * (touch.normal.dot(place) - plane)});
+      }
     }
     return points;
   };
@@ -146,9 +148,13 @@ std::optional<Touch> touchOf(const ObservedEncounter& encounter, const BodyState
   };
   if (encounter.wall != nullptr) {
     touch.normal = encounter.wall->normal;
-    touch.points = take(box, 1, encounter.wall->offset);
+    touch.points = take(boxes, 1, encounter.wall->offset);
   } else {
-    const AuditBox second = auditBox(*encounter.other, other.pose);
+    const std::vector<AuditBox> others = auditBoxes(*encounter.other, other.pose);
+    if (boxes.size() > 1 || others.size() > 1) {
+      return std::nullopt;  // they may touch in several places
+    }
+    const AuditBox& second = others.front();
     const std::optional<Vec3> normal = normalOf(box, second, encounter.near);
     if (!normal) {
       return std::nullopt;
@@ -157,12 +163,14 @@ std::optional<Touch> touchOf(const ObservedEncounter& encounter, const BodyState
     const auto reach = [&](const AuditBox& of) {
       return (of.pose.worldFromBody.transpose() * touch.normal).cwiseAbs().dot(of.halfExtents);
     };
-    std::vector<Touch::Point> own = take(box, 1, touch.normal.dot(second.pose.position) + reach(second));
-    std::vector<Touch::Point> others = take(second, -1, touch.normal.dot(box.pose.position) - reach(box));
+    std::vector<Touch::Point> own =
+        take({&box, 1}, 1, touch.normal.dot(second.pose.position) + reach(second));
+    std::vector<Touch::Point> ofOther =
+        take({&second, 1}, -1, touch.normal.dot(box.pose.position) - reach(box));
     const auto sizeOf = [](const AuditBox& of) { return of.halfExtents.norm(); };
-    const bool isOwn = nearOnes(own) < nearOnes(others) ||
-                       (nearOnes(own) == nearOnes(others) && sizeOf(box) <= sizeOf(second));
-    touch.points = isOwn ? std::move(own) : std::move(others);
+    const bool isOwn = nearOnes(own) < nearOnes(ofOther) ||
+                       (nearOnes(own) == nearOnes(ofOther) && sizeOf(box) <= sizeOf(second));
+    touch.points = isOwn ? std::move(own) : std::move(ofOther);
   }
   touch.gap = least(touch.points);
   return touch;

@@ -210,16 +210,16 @@ double ExternalOf::wayWithin(std::size_t body, std::size_t segment) const {
   return way;
 }
 
-bool ExternalOf::meets(const AuditBox& box, double near, std::size_t other, double time) const {
+bool ExternalOf::meets(const Body& owner, const Pose& place, double near, std::size_t other,
+                       double time) const {
   const Body& body = run_.world.bodies[other];
   const Track& track = run_.tracks[other];
   const std::size_t segment = segmentAt(track, time);
   const BodyState there =
       stateAt(track.segments[segment].motion, body.mass, time - track.segments[segment].start);
   const double apart = near + touchingDistance(body, run_.settings) + wayWithin(other, segment);
-  return (box.pose.position - there.pose.position).norm() <=
-             box.halfExtents.norm() + radiusOf(body) + apart &&
-         separationOf(box, auditBox(body, there.pose)) <= apart;
+  return (place.position - there.pose.position).norm() <= radiusOf(owner) + radiusOf(body) + apart &&
+         separationOf(owner, place, body, there.pose) <= apart;
 }
 
 Pose ExternalOf::placeOf(std::size_t body, std::size_t segment, double elapsed) const {
@@ -239,9 +239,8 @@ ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment)
   Touches touches;
   for (const double elapsed : {0.0, lengthOf(body, segment)}) {
     const Pose place = placeOf(body, segment, elapsed);
-    const AuditBox box = auditBox(owner, place);
     for (std::size_t wall = 0; wall < run_.world.walls.size(); ++wall) {
-      if (separationOf(box, run_.world.walls[wall]) <= near) {
+      if (separationOf(owner, place, run_.world.walls[wall]) <= near) {
         touches.walls.push_back(wall);
       }
     }
@@ -252,7 +251,7 @@ ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment)
       const Pose where = other.course.empty() ? other.initial.pose : partAt(other.course, time).at(time).pose;
       if (mayTouch(run_.world, static_cast<int>(body), static_cast<int>(fixed)) &&
           (place.position - where.position).norm() <= reach &&
-          separationOf(box, auditBox(other, where)) <= near) {
+          separationOf(owner, place, other, where) <= near) {
         touches.immovables.push_back(fixed);
       }
     }
@@ -268,10 +267,10 @@ bool ExternalOf::touchesOther(std::size_t body, std::size_t segment) const {
   const double near = touchingDistance(owner, run_.settings) + wayWithin(body, segment);
   const double start = run_.tracks[body].segments[segment].start;
   for (const double elapsed : {0.0, lengthOf(body, segment)}) {
-    const AuditBox box = auditBox(owner, placeOf(body, segment, elapsed));
+    const Pose place = placeOf(body, segment, elapsed);
     if (std::any_of(group_.bodies.begin(), group_.bodies.end(), [&](std::size_t other) {
           return other != body && mayTouch(run_.world, static_cast<int>(body), static_cast<int>(other)) &&
-                 meets(box, near, other, start + elapsed);
+                 meets(owner, place, near, other, start + elapsed);
         })) {
       return true;
     }

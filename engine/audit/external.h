@@ -62,7 +62,7 @@ class ExternalOf {
   Pose placeOf(std::size_t body, std::size_t segment, double elapsed) const;
   double lengthOf(std::size_t body, std::size_t segment) const;
   bool isHeldByJoint() const;
-  bool meets(const AuditBox& box, double near, std::size_t other, double time) const;
+  bool meets(const Body& owner, const Pose& place, double near, std::size_t other, double time) const;
   double wayWithin(std::size_t body, std::size_t segment) const;
 
   struct Follower {

@@ -105,9 +105,8 @@ void joinByPlaces(const Trajectory& run, const Samples& samples, Joining& joinin
       };
       if (!joining.areJoined(a, b) && (touches(a) || touches(b)) &&
           mayTouch(run.world, static_cast<int>(a), static_cast<int>(b)) &&
-          separationOf(auditBox(run.world.bodies[a], samples.state(moment, a).pose),
-                       auditBox(run.world.bodies[b], samples.state(moment, b).pose)) <=
-              margins[a] + margins[b]) {
+          separationOf(run.world.bodies[a], samples.state(moment, a).pose, run.world.bodies[b],
+                       samples.state(moment, b).pose) <= margins[a] + margins[b]) {
         joining.join(a, b);
       }
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/math/pose.h"
 #include "physics/world/world.h"
 
@@ -11,8 +13,8 @@ struct AuditBox {
   Pose pose;
 };
 
-/// The box of a body, given the body's pose.
-AuditBox auditBox(const Body& body, const Pose& pose);
+/// The boxes of a body, given the body's pose.
+std::vector<AuditBox> auditBoxes(const Body& body, const Pose& pose);
 
 /// [m] Half the extent of a box along a unit direction.
 double reachAlong(const AuditBox& box, const Vec3& direction);
@@ -46,5 +48,9 @@ double separationOf(const AuditBox& a, const AuditBox& b);
 
 /// Signed distance [m] of a box's lowest corner from a wall; negative: behind it.
 double separationOf(const AuditBox& box, const Wall& wall);
+
+/// The same of two bodies at their poses, or of a body and a wall: of the boxes that are nearest.
+double separationOf(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB);
+double separationOf(const Body& body, const Pose& pose, const Wall& wall);
 
 }  // namespace careen

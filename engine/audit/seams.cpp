@@ -22,7 +22,7 @@ bool isFinite(const BodyState& state) {
 // The farthest that a point of the box moves: one of its corners. A thin rod that rolls moves none far.
 double jumpOf(const Body& body, const Pose& before, const Pose& after) {
   double farthest = 0;
-  for (int k = 0; k < kCorners; ++k) {
+  for (int k = 0; k < body.cornerCount(); ++k) {
     const Vec3 turned = (after.worldFromBody - before.worldFromBody) * corner(body, k);
     farthest = std::max(farthest, (after.position - before.position + turned).norm());
   }

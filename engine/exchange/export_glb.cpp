@@ -173,16 +173,40 @@ class GlbWriter {
     return meshes_.size() - 1;
   }
 
+  // All faces of the boxes of a body, in its frame.
+  static TriangleMesh meshOfBoxes(const Body& body) {
+    TriangleMesh mesh;
+    for (int part = 0; part < body.partCount(); ++part) {
+      const Pose pose = partPose(body, part, Pose{});
+      const std::size_t first = mesh.points.size();
+      for (int k = 0; k < kCorners; ++k) {
+        mesh.points.push_back(pose.worldPoint(corner(partHalfExtents(body, part), k)));
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t u = 4U >> static_cast<unsigned>((axis + 1) % 3);
+        const std::size_t v = 4U >> static_cast<unsigned>((axis + 2) % 3);
+        const std::size_t minus = first + (4U >> static_cast<unsigned>(axis));
+        mesh.triangles.push_back({first, first + u, first + u + v});
+        mesh.triangles.push_back({first, first + u + v, first + v});
+        mesh.triangles.push_back({minus, minus + u + v, minus + u});
+        mesh.triangles.push_back({minus, minus + v, minus + u + v});
+      }
+    }
+    return mesh;
+  }
+
   void addBoxes() {
     auto part = run_.stage.parts.begin();
     for (std::size_t body = 0; body < run_.tracks.size(); ++body) {
       const Body& box = run_.world.bodies[body];
       const std::size_t node = nodes_.size();
       const bool isPart = part != run_.stage.parts.end() && part->body == body;
+      const bool isMesh = isPart || !box.parts.empty();
       const Color& color = run_.stage.colors[body];
       nodes_.push_back({{"name", names_.unique(box.name)},
-                        {"mesh", isPart ? partMesh(part->mesh, paintOf(color)) : boxMesh(color)},
-                        {"scale", floatsOf(isPart ? Vec3(Vec3::Ones()) : box.halfExtents)},
+                        {"mesh", isMesh ? partMesh(isPart ? part->mesh : meshOfBoxes(box), paintOf(color))
+                                        : boxMesh(color)},
+                        {"scale", floatsOf(isMesh ? Vec3(Vec3::Ones()) : box.halfExtents)},
                         {"extras", {{"name", box.name}, {"mass", box.mass.mass}}}});
       part += isPart ? 1 : 0;
       animation_.moveWithBody(node, nodes_[node], body);

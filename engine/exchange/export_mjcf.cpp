@@ -181,11 +181,24 @@ class MjcfWriter {
            mjcfAttribute("mass", inFull(body.mass.mass)) +
            mjcfAttribute("diaginertia", mjcfNumbers(body.mass.inertiaBody)) + "/>");
     }
-    line(indent + "  <geom" + mjcfAttribute("name", body.name) + " type=\"box\"" +
-         mjcfAttribute("size", mjcfNumbers(body.halfExtents)) + frictionOf(body.material) +
+    for (int part = 0; part < body.partCount(); ++part) {
+      addGeom(body, part, color, indent + "  ");
+    }
+    addSites(number, indent + "  ");
+  }
+
+  // Of several of a body the first has its name.
+  void addGeom(const Body& body, int part, const Color& color, const std::string& indent) {
+    std::string place;
+    if (!body.parts.empty()) {
+      const Pose inBox = partPose(body, part, Pose{});
+      place = mjcfAttribute("pos", mjcfNumbers(inBox.position)) +
+              mjcfAttribute("quat", mjcfNumbers(Quat(inBox.worldFromBody).normalized()));
+    }
+    line(indent + "<geom" + (part == 0 ? mjcfAttribute("name", body.name) : std::string()) + " type=\"box\"" +
+         place + mjcfAttribute("size", mjcfNumbers(partHalfExtents(body, part))) + frictionOf(body.material) +
          mjcfAttribute("rgba", mjcfNumbers({color.red / 255.0, color.green / 255.0, color.blue / 255.0, 1})) +
          "/>");
-    addSites(number, indent + "  ");
   }
 
   /// An end of a spring, rope or rod.

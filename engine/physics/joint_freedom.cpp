@@ -69,7 +69,8 @@ class HeldRows {
     }
     const TouchingBody& a = body(feature.a);
     const TouchingBody& b = body(feature.b);
-    const ContactState state = jointState(feature, a.kinematics(), a.shape(), b.kinematics(), b.shape());
+    const ContactState state =
+        jointState(feature, a.kinematics(), a.shape(feature.boxA), b.kinematics(), b.shape(feature.boxB));
     for (std::size_t row = 0; row < 3; ++row) {
       if (state.rows->a.linear[row].isZero(0) && state.rows->a.turning[row].isZero(0)) {
         continue;

@@ -44,9 +44,10 @@ class Pair {
 };
 
 double Pair::gapAt(double time) const {
-  const auto boxOf = [&](const MovingBody& each) { return auditBox(*each.body, each.at(time).pose); };
-  return wall_ != nullptr ? separationOf(boxOf(pieces_[0]), *wall_)
-                          : separationOf(boxOf(pieces_[0]), boxOf(pieces_[1]));
+  const MovingBody& own = pieces_[0];
+  const Pose pose = own.at(time).pose;
+  return wall_ != nullptr ? separationOf(*own.body, pose, *wall_)
+                          : separationOf(*own.body, pose, *pieces_[1].body, pieces_[1].at(time).pose);
 }
 
 double Pair::size() const {

@@ -77,7 +77,7 @@ void useMesh(const JsonTree& tree, std::size_t place, const char* key, const std
 void takeMass(const JsonTree& tree, const JsonNode& node, SceneBox& box) {
   const std::size_t place = node.find("mass_from")->offset;
   const std::string found = "mass_from for box " + inQuotes(box.name);
-  for (const char* const key : {"mass", "inertia", "center"}) {
+  for (const char* const key : {"mass", "inertia", "center", "parts"}) {
     if (node.find(key) != nullptr) {
       tree.fail(place, found + " beside " + key, "one of them: the mesh gives mass, centre and inertia");
     }

@@ -250,9 +250,16 @@ Body bodyOf(const SceneBox& box, const Material& material) {
             .boxCenter = box.center.isZero(0) ? box.center : Vec3(-box.center),
             .mass = box.fixed ? immovable() : massOf(box),
             .material = material,
-            .initial = {},
-            .course = box.course};
+            .initial = {}};
+  if (!box.parts.empty()) {
+    std::vector<BodyPart> parts;
+    for (const BodyPart& part : box.parts) {
+      parts.push_back(part.seenFrom(box.center));
+    }
+    setParts(body, std::move(parts));
+  }
   if (!box.course.empty()) {
+    body.course = box.course;
     body.initial = stateOf(box.course.front().at(0));
     return body;
   }

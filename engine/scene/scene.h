@@ -25,7 +25,8 @@ struct Room : RoomShape {
 
 struct SceneBox {
   std::string name;
-  Vec3 halfExtents = Vec3::Zero();  ///< [m]
+  Vec3 halfExtents = Vec3::Zero();  ///< [m] of several boxes, of that around them about the frame's origin
+  std::vector<BodyPart> parts;      ///< in the box's frame; none: it is one box
   double mass = 0;                  ///< [kg] 0 if the box is fixed and the scene gives none
   std::optional<Mat3> inertia;      ///< [kg m²] about the centre of mass, box's axes; absent: solid
   Vec3 center = Vec3::Zero();       ///< [m] centre of mass, from the box's middle along its axes

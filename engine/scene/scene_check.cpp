@@ -115,10 +115,11 @@ std::string inertiaInWords(const Mat3& inertia) {
 void checkInertias(const JsonTree& tree, const Scene& scene) {
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
     const SceneBox& box = scene.boxes[i];
-    if (!box.inertia) {
+    const JsonNode* const inertia = elementOf(tree, "boxes", i).find("inertia");
+    if (inertia == nullptr) {
       continue;
     }
-    const std::size_t place = elementOf(tree, "boxes", i).find("inertia")->offset;
+    const std::size_t place = inertia->offset;
     if (box.fixed) {
       tree.fail(place, "inertia for the fixed box " + inQuotes(box.name), "none, as it stays where it is");
     }
@@ -270,7 +271,7 @@ void checkStart(const JsonTree& tree, const Scene& scene) {
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
     const SceneBox& box = scene.boxes[i];
     for (const Wall& wall : walls) {
-      const LowestGap lowest = lowestGap(wall, {box.pose, box.halfExtents});
+      const LowestGap lowest = lowestGap(wall, placedBox(box));
       if (lowest.overlaps()) {
         tree.fail(
             memberOrSelf(elementOf(tree, "boxes", i), "position").offset,

@@ -11,7 +11,8 @@
 #include "scene/joint_shape.h"
 #include "scene/json_shape.h"
 #include "scene/motion_shape.h"
-#include "stage/turn.h"
+#include "scene/parts_shape.h"
+#include "scene/union_moments.h"
 
 namespace careen {
 namespace {
@@ -38,24 +39,6 @@ Color readColor(const JsonValue& value) {
     value.fail(expected);
   }
   return {.red = channels[0], .green = channels[1], .blue = channels[2]};
-}
-
-Mat3 readAxisAngle(const JsonValue& value) {
-  const JsonObject object = value.object({"axis", "angle_deg"});
-  const Vec3 axis = object.require("axis").direction();
-  return rotationAbout(axis, turnFrom(object.require("angle_deg").number(anyNumber("deg"))));
-}
-
-Mat3 readQuaternion(const JsonValue& value) {
-  const std::vector<JsonValue> parts = value.elements("[w, x, y, z] or an axis and an angle_deg", 4);
-  Quat rotation(parts[0].number(anyNumber()), parts[1].number(anyNumber()), parts[2].number(anyNumber()),
-                parts[3].number(anyNumber()));
-  const double largest = rotation.coeffs().cwiseAbs().maxCoeff();
-  if (largest == 0) {
-    value.failAs("a zero quaternion", "a rotation");
-  }
-  rotation.coeffs() /= largest;  // tiny components would square to 0
-  return rotation.normalized().toRotationMatrix();
 }
 
 Room readRoom(const JsonValue& value) {
@@ -95,7 +78,7 @@ Wall readWall(const JsonValue& value, std::size_t index) {
   return wall;
 }
 
-double readMass(const JsonObject& object, const Vec3& halfExtents, bool fixed) {
+double readMass(const JsonObject& object, double volume, bool fixed) {
   const std::optional<JsonValue> mass = object.find("mass");
   const std::optional<JsonValue> density = object.find("density");
   if (mass && density) {
@@ -105,7 +88,7 @@ double readMass(const JsonObject& object, const Vec3& halfExtents, bool fixed) {
     object.fail("neither mass nor density", "one of them");
   }
   if (density) {
-    return density->number(positiveNumber("kg/m³")) * 8 * halfExtents.prod();
+    return density->number(positiveNumber("kg/m³")) * volume;
   }
   return mass ? mass->number(positiveNumber("kg")) : 0;
 }
@@ -132,21 +115,54 @@ constexpr std::array<Color, 6> kPalette{{{0xc8, 0x55, 0x3d},
                                          {0xd9, 0x7b, 0x41}}};
 
 SceneBox readBox(const JsonValue& value, std::size_t index) {
-  const JsonObject object =
-      value.object({"name", "half_extents", "mass", "density", "mass_from", "draw", "inertia", "center",
-                    "position", "orientation", "velocity", "angular_velocity", "restitution", "friction",
-                    "fixed", "color", "surface_velocity", "surface_spin", "motion"});
+  const JsonObject object = value.object({"name",
+                                          "half_extents",
+                                          "parts",
+                                          "mass",
+                                          "density",
+                                          "mass_from",
+                                          "draw",
+                                          "inertia",
+                                          "center",
+                                          "position",
+                                          "orientation",
+                                          "velocity",
+                                          "angular_velocity",
+                                          "restitution",
+                                          "friction",
+                                          "fixed",
+                                          "color",
+                                          "surface_velocity",
+                                          "surface_spin",
+                                          "motion"});
   SceneBox box;
   box.name = object.name("box-" + std::to_string(index));
-  box.halfExtents = object.require("half_extents").vector(positiveNumber("m"));
+  SolidMoments solid;  // of the union of its parts
+  if (const std::optional<JsonValue> parts = object.find("parts")) {
+    if (object.find("half_extents")) {
+      object.fail("both half_extents and parts", "one of them");
+    }
+    box.parts = readParts(*parts);
+    box.halfExtents = reachOf(box.parts);
+    solid = momentsOfUnion(box.parts);
+  } else {
+    box.halfExtents = object.require("half_extents").vector(positiveNumber("m"));
+    solid.volume = 8 * box.halfExtents.prod();
+  }
   if (const std::optional<JsonValue> fixed = object.find("fixed")) {
     box.fixed = fixed->boolean();
   }
-  box.mass = readMass(object, box.halfExtents, box.fixed);
+  box.mass = readMass(object, solid.volume, box.fixed);
+  if (!box.parts.empty() && !box.fixed) {
+    box.inertia = box.mass / solid.volume * solid.inertia;
+    box.center = solid.center;
+  }
   if (const std::optional<JsonValue> inertia = object.find("inertia")) {
     box.inertia = readInertia(*inertia);
   }
-  box.center = object.vector("center", anyNumber("m"));
+  if (const std::optional<JsonValue> center = object.find("center")) {
+    box.center = center->vector(anyNumber("m"));
+  }
   if (const std::optional<JsonValue> mesh = object.find("mass_from")) {
     box.massFrom = mesh->string("the name of a mesh, .obj");
     if (box.massFrom.empty()) {
@@ -161,8 +177,7 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
   }
   box.pose.position = object.vector("position", anyNumber("m"));
   if (const std::optional<JsonValue> orientation = object.find("orientation")) {
-    box.pose.worldFromBody =
-        orientation->is(Kind::kObject) ? readAxisAngle(*orientation) : readQuaternion(*orientation);
+    box.pose.worldFromBody = readOrientation(*orientation);
   }
   if (const std::optional<JsonValue> motion = object.find("motion")) {
     box.course = readMotion(*motion, object.find("position"), box.pose);

@@ -57,41 +57,45 @@ Vec3 middleOf(const TriangleMesh& mesh) {
 
 }  // namespace
 
+void SolidSums::add(const Vec3& fromA, const Vec3& fromB, const Vec3& fromC) {
+  const Vec3 a = fromA - from_;
+  const Vec3 b = fromB - from_;
+  const Vec3 c = fromC - from_;
+  const Vec3 sum = a + b + c;
+  const double determinant = dot(a, b.cross(c));
+  volume_ += determinant / 6;
+  size_ += std::fabs(determinant) / 6;
+  first_ += determinant / 24 * sum;
+  second_ +=
+      determinant / 120 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+}
+
+SolidMoments SolidSums::moments() const {
+  const Vec3 off = first_ / volume_;
+  SolidMoments moments{.volume = volume_, .center = from_ + off};
+  const Mat3 spread = second_ - volume_ * (off * off.transpose());
+  moments.inertia = spread.trace() * Mat3::Identity() - spread;
+  return moments;
+}
+
 SolidMoments momentsOf(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) {
     throw InputError("found no faces, expected a closed mesh");
   }
   checkEdges(mesh);
-  const Vec3 middle = middleOf(mesh);  // near all of it, so that little cancels
-  double volume = 0;
-  double size = 0;
-  Vec3 first = Vec3::Zero();
-  Mat3 second = Mat3::Zero();
+  SolidSums sums(middleOf(mesh));  // near all of it, so that little cancels
   for (const auto& [i, j, k] : mesh.triangles) {
-    const Vec3 a = mesh.points[i] - middle;
-    const Vec3 b = mesh.points[j] - middle;
-    const Vec3 c = mesh.points[k] - middle;
-    const Vec3 sum = a + b + c;
-    const double determinant = dot(a, b.cross(c));
-    volume += determinant / 6;
-    size += std::fabs(determinant) / 6;
-    first += determinant / 24 * sum;
-    second += determinant / 120 *
-              (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+    sums.add(mesh.points[i], mesh.points[j], mesh.points[k]);
   }
   constexpr double kNothing = 1e-12;  // of the tetrahedra: rounding
-  if (!(std::fabs(volume) > kNothing * size)) {
+  if (!(std::fabs(sums.volume()) > kNothing * sums.size())) {
     throw InputError("found a mesh that encloses nothing, expected a closed mesh around a volume");
   }
-  if (volume < 0) {
-    throw InputError("found a mesh inside out, of volume " + brief(volume) +
+  if (sums.volume() < 0) {
+    throw InputError("found a mesh inside out, of volume " + brief(sums.volume()) +
                      " m³, expected faces that run anticlockwise when seen from outside");
   }
-  SolidMoments moments{.volume = volume, .center = middle + first / volume};
-  const Vec3 off = first / volume;
-  const Mat3 spread = second - volume * (off * off.transpose());
-  moments.inertia = spread.trace() * Mat3::Identity() - spread;
-  return moments;
+  return sums.moments();
 }
 
 }  // namespace careen

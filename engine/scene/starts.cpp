@@ -15,15 +15,20 @@ std::vector<PlacedBox> placedBoxes(const Scene& scene) {
   std::vector<PlacedBox> placed;
   placed.reserve(scene.boxes.size());
   for (const SceneBox& box : scene.boxes) {
-    placed.push_back({.name = box.name,
-                      .halfExtents = box.halfExtents,
-                      .pose = box.pose,
-                      .inverseMass = box.fixed ? 0 : 1 / box.mass});
+    placed.push_back(placedBox(box));
   }
   return placed;
 }
 
 }  // namespace
+
+PlacedBox placedBox(const SceneBox& box) {
+  return {.name = box.name,
+          .halfExtents = box.halfExtents,
+          .pose = box.pose,
+          .inverseMass = box.fixed ? 0 : 1 / box.mass,
+          .parts = box.parts};
+}
 
 std::optional<Overlap> findOverlap(const Scene& scene) {
   return traitsOf(scene.settings.method).boxBox ? firstOverlap(placedBoxes(scene), scene.apart)

@@ -10,6 +10,9 @@ namespace careen {
 /// Whether boxes may overlap, or be behind walls, at the start of a scene.
 enum class Starts { kApart, kMayOverlap };
 
+/// As tests for overlap take it.
+PlacedBox placedBox(const SceneBox& box);
+
 /// The first two overlapping boxes in the scene's order, if its method lets boxes collide.
 std::optional<Overlap> findOverlap(const Scene& scene);
 

@@ -92,8 +92,7 @@ void includeOverlap(const World& world, const std::vector<BodyState>& states, Ju
   };
   std::vector<PlacedBox> boxes;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const Body& body = world.bodies[i];
-    boxes.push_back({body.name, body.halfExtents, boxPose(body, states[i].pose), body.mass.inverseMass});
+    boxes.push_back(placedBox(world.bodies[i], states[i].pose));
   }
   for (const Overlap& each : overlaps(boxes, world.apart)) {
     include(each.depth,
@@ -101,7 +100,7 @@ void includeOverlap(const World& world, const std::vector<BodyState>& states, Ju
   }
   for (const PlacedBox& box : boxes) {
     for (const Wall& wall : world.walls) {
-      const double gap = box.inverseMass > 0 ? lowestGap(wall, box.at()).gap : 0;
+      const double gap = box.inverseMass > 0 ? lowestGap(wall, box).gap : 0;
       include(std::isfinite(gap) ? -gap : INFINITY, box.halfExtents.norm());
     }
   }

@@ -112,15 +112,20 @@ class BulletEngine : public Peer::Engine {
 
  private:
   void addBox(const Body& body) {
-    auto box = std::make_unique<btBoxShape>(toBullet(body.halfExtents));
-    if (body.boxCenter.isZero(0) && !body.mass.turned) {
-      add(std::move(box), body);
+    if (body.parts.empty() && body.boxCenter.isZero(0) && !body.mass.turned) {
+      add(std::make_unique<btBoxShape>(toBullet(body.halfExtents)), body);
       return;
     }
     auto placed = std::make_unique<btCompoundShape>();
     const Mat3 principalFromBody = body.mass.bodyFromPrincipal.transpose();
-    placed->addChildShape(toBullet(Pose{principalFromBody * body.boxCenter, principalFromBody}), box.get());
-    shapes_.push_back(std::move(box));
+    for (int part = 0; part < body.partCount(); ++part) {
+      auto box = std::make_unique<btBoxShape>(toBullet(partHalfExtents(body, part)));
+      const Pose inBody = partPose(body, part, boxPose(body, Pose{}));
+      placed->addChildShape(
+          toBullet(Pose{principalFromBody * inBody.position, principalFromBody * inBody.worldFromBody}),
+          box.get());
+      shapes_.push_back(std::move(box));
+    }
     add(std::move(placed), body);
   }
 

@@ -66,8 +66,15 @@ std::string boxText(const Body& body, const std::string& name) {
             attribute("diaginertia", numbers(body.mass.inertiaBody)) +
             attribute("quat", numbers(Quat(body.mass.bodyFromPrincipal).normalized())) + "/>";
   }
-  return text + "<geom type=\"box\"" + attribute("name", name) + attribute("pos", numbers(body.boxCenter)) +
-         attribute("size", numbers(body.halfExtents)) + "/></body>";
+  for (int part = 0; part < body.partCount(); ++part) {
+    const Pose inBody = partPose(body, part, boxPose(body, Pose{}));
+    text += "<geom type=\"box\"" + (part == 0 ? attribute("name", name) : std::string()) +
+            attribute("pos", numbers(inBody.position)) +
+            (body.parts.empty() ? std::string()
+                                : attribute("quat", numbers(Quat(inBody.worldFromBody).normalized()))) +
+            attribute("size", numbers(partHalfExtents(body, part))) + "/>";
+  }
+  return text + "</body>";
 }
 
 // A world with joints, as careen exports it: a tree, and equalities where joints close loops.

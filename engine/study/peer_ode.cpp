@@ -75,9 +75,6 @@ class OdeEngine : public Peer::Engine {
 
   void add(const Body& body) {
     const BodyState& initial = body.initial;
-    dxGeom* const box = dCreateBox(space_.get(), 2 * body.halfExtents.x(), 2 * body.halfExtents.y(),
-                                   2 * body.halfExtents.z());
-    name(box, body.material);
     dBodyID id = nullptr;
     if (!isImmovable(body.mass)) {
       dMass mass;
@@ -86,22 +83,47 @@ class OdeEngine : public Peer::Engine {
                          inertia(0, 1), inertia(0, 2), inertia(1, 2));
       id = dBodyCreate(world_.get());
       dBodySetMass(id, &mass);
-      dGeomSetBody(box, id);
       const Vec3 spin = angularVelocity(body.mass, initial);
       dBodySetLinearVel(id, initial.velocity.x(), initial.velocity.y(), initial.velocity.z());
       dBodySetAngularVel(id, spin.x(), spin.y(), spin.z());
     }
-    dMatrix3 rotation = {};
-    for (int row = 0; row < 3; ++row) {
-      Vec3::Map(rotation + kRowOfOde * row) = initial.pose.worldFromBody.row(row);
-    }
-    dGeomSetPosition(box, initial.pose.position.x(), initial.pose.position.y(), initial.pose.position.z());
-    dGeomSetRotation(box, rotation);
-    if (!body.boxCenter.isZero(0)) {
-      dGeomSetOffsetPosition(box, body.boxCenter.x(), body.boxCenter.y(), body.boxCenter.z());
+    for (int part = 0; part < body.partCount(); ++part) {
+      addGeom(body, part, id);
     }
     bodies_.push_back(id);
     masses_.push_back(body.mass);
+  }
+
+  // The first places the body.
+  void addGeom(const Body& body, int part, dBodyID id) {
+    const Vec3& half = partHalfExtents(body, part);
+    dxGeom* const box = dCreateBox(space_.get(), 2 * half.x(), 2 * half.y(), 2 * half.z());
+    name(box, body.material);
+    const Pose& pose = body.initial.pose;
+    const Pose inBody = partPose(body, part, boxPose(body, Pose{}));
+    const Pose placed = id != nullptr ? pose : partPose(body, part, boxPose(body, pose));
+    dMatrix3 rotation = {};
+    const auto fill = [&](const Mat3& axes) {
+      for (int row = 0; row < 3; ++row) {
+        Vec3::Map(rotation + kRowOfOde * row) = axes.row(row);
+      }
+    };
+    if (id != nullptr) {
+      dGeomSetBody(box, id);
+    }
+    fill(placed.worldFromBody);
+    dGeomSetPosition(box, placed.position.x(), placed.position.y(), placed.position.z());
+    dGeomSetRotation(box, rotation);
+    if (id == nullptr) {
+      return;
+    }
+    if (!inBody.position.isZero(0)) {
+      dGeomSetOffsetPosition(box, inBody.position.x(), inBody.position.y(), inBody.position.z());
+    }
+    if (inBody.worldFromBody != Mat3::Identity()) {
+      fill(inBody.worldFromBody);
+      dGeomSetOffsetRotation(box, rotation);
+    }
   }
 
   // As both ends are at the start, from where its angle or way counts.

@@ -56,7 +56,11 @@ ProgramPeer::ProgramPeer(std::string name, std::string settings, std::vector<std
     : name_(std::move(name)), settings_(std::move(settings)), command_(std::move(command)) {}
 
 std::string ProgramPeer::refuses(const World& world) const {
-  return world.joints.empty() ? refusalOfPeers(world) : "no joints";
+  const bool isAnyOfSeveral = std::any_of(world.bodies.begin(), world.bodies.end(),
+                                          [](const Body& body) { return !body.parts.empty(); });
+  return isAnyOfSeveral         ? "no bodies of several boxes"
+         : world.joints.empty() ? refusalOfPeers(world)
+                                : "no joints";
 }
 
 double ProgramPeer::secondsTaken() const {

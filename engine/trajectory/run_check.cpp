@@ -188,6 +188,13 @@ void checkBody(const Body& body) {
   }
   require((body.boxCenter.cwiseAbs().array() <= body.halfExtents.array()).all(),
           "a centre of mass outside its box", owner);
+  require(body.parts.size() <= Body::kMostParts, "too many parts", owner);
+  for (const BodyPart& part : body.parts) {
+    require(std::all_of(part.halfExtents.begin(), part.halfExtents.end(), isPositive) &&
+                part.center.allFinite() && isRotation(part.bodyFromPart) &&
+                part.turned == (part.bodyFromPart != Mat3::Identity()),
+            "a part that is no box", owner);
+  }
   checkMaterial(body.material, owner);
   require(isSound(body.initial), "an invalid initial state", owner);
 }

@@ -153,15 +153,42 @@ void visit(Archive& archive, Visited<Archive, MassProperties> mass) {
   visit(archive, mass.inverseInertiaBody);
 }
 
+template <class Archive>
+void visitColumns(Archive& archive, Visited<Archive, Mat3> matrix) {
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      archive.visit(matrix(row, column));
+    }
+  }
+}
+
 /// What a body has since format version 7, stored after the rest.
 template <class Archive>
 void visitPlacement(Archive& archive, Visited<Archive, Body> body) {
   visit(archive, body.boxCenter);
   archive.visit(body.mass.turned);
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row) {
-      archive.visit(body.mass.bodyFromPrincipal(row, column));
+  visitColumns(archive, body.mass.bodyFromPrincipal);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, BodyPart> part) {
+  visit(archive, part.halfExtents);
+  visit(archive, part.center);
+  archive.visit(part.turned);
+  visitColumns(archive, part.bodyFromPart);
+}
+
+/// What a body has since format version 13.
+template <class Archive>
+void visitParts(Archive& archive, Visited<Archive, Body> body) {
+  if constexpr (Archive::kReads) {
+    std::vector<BodyPart> parts;
+    visitAll(archive, parts);
+    if (!parts.empty()) {
+      setParts(body, std::move(parts));
     }
+  } else {
+    visitAll(archive, body.parts);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "physics/world/body.h"
 #include "view/camera.h"
@@ -51,7 +52,7 @@ class Caster {
 
   // The slab of each pair of faces holds a part of the ray; the box, what all three hold. The parts are those
   // of 1/depth times the ray in the box's frame, which is linear in the pixel's coordinates.
-  void cast(const CastBox& box, std::size_t index) {
+  void cast(const CastBox& box, std::size_t index, std::size_t part) {
     const Mat3 bodyFromWorld = box.pose.worldFromBody.transpose();
     const Vec3 eye = bodyFromWorld * (rays_.eye() - box.pose.position);
     if ((eye.cwiseAbs().array() <= box.halfExtents.array()).all()) {
@@ -90,8 +91,8 @@ class Caster {
           leaves = std::min(leaves, out);
         }
         if (face >= 0 && enters <= leaves) {
-          ++picture_.alone[index];
-          keep(x, y, enters, instance, static_cast<std::uint8_t>(face + 1));
+          count(x, y, index);
+          keep(x, y, enters, instance, static_cast<std::uint8_t>(6 * part + static_cast<unsigned>(face) + 1));
         }
       }
     }
@@ -140,10 +141,35 @@ class Caster {
     return std::move(picture_);
   }
 
+  /// Of things of several boxes, casts those of one after the other.
+  void cast(const CastBox& thing, std::size_t index) {
+    if (thing.parts.empty()) {
+      cast(thing, index, 0);
+      return;
+    }
+    counted_.assign(picture_.depth.size(), 0);
+    for (std::size_t part = 0; part < thing.parts.size(); ++part) {
+      cast(thing.parts[part], index, part);
+    }
+    counted_.clear();
+  }
+
  private:
+  std::size_t placeOf(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(rays_.width()) +
+           static_cast<std::size_t>(x);
+  }
+
+  // A pixel counts once, however many parts are there.
+  void count(int x, int y, std::size_t index) {
+    if (!counted_.empty() && std::exchange(counted_[placeOf(x, y)], 1) != 0) {
+      return;
+    }
+    ++picture_.alone[index];
+  }
+
   void keep(int x, int y, double depth, std::int32_t instance, std::uint8_t face) {
-    const std::size_t place =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(rays_.width()) + static_cast<std::size_t>(x);
+    const std::size_t place = placeOf(x, y);
     if (depth < picture_.depth[place]) {
       picture_.depth[place] = depth;
       picture_.instance[place] = instance;
@@ -153,6 +179,7 @@ class Caster {
 
   const PixelRays& rays_;
   std::size_t boxes_;
+  std::vector<char> counted_;  // pixels of a thing of several parts
   CastPicture picture_;
 };
 

@@ -44,10 +44,11 @@ class PixelRays {
   Vec3 down_;
 };
 
-/// A box to be hit.
+/// A box to be hit, or several that are one thing.
 struct CastBox {
   Pose pose;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
+  std::vector<CastBox> parts = {};  ///< in the world too; none: the box itself
 };
 
 /// Rectangle of pixels, its ends included; empty if right < left.
@@ -65,8 +66,9 @@ struct PixelBox {
 struct CastPicture {
   std::vector<double> depth;  ///< [m] along the line of sight; 0 where nothing is hit
   std::vector<std::int32_t>
-      instance;                       ///< 0 nothing; box i is i + 1; surface j is the number of boxes + j + 1
-  std::vector<std::uint8_t> face;     ///< 0 no box; 1 … 6 the face −x, +x, −y, +y, −z, +z of a box
+      instance;                    ///< 0 nothing; box i is i + 1; surface j is the number of boxes + j + 1
+  std::vector<std::uint8_t> face;  ///< 0 no box; 1 … 6 the face −x, +x, −y, +y, −z, +z of a box; of its
+                                   ///< part k, 6 k more
   std::vector<std::int64_t> visible;  ///< pixels of each box
   std::vector<std::int64_t> alone;    ///< pixels it would have if nothing were before it
   std::vector<PixelBox> bounds;       ///< of its visible pixels

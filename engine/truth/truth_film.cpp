@@ -37,6 +37,12 @@ Json boxesJson(const Trajectory& run) {
          {"restitution", body.material.restitution},
          {"friction", body.material.friction},
          {"color", {color.red, color.green, color.blue}}});
+    for (int part = 0; part < static_cast<int>(body.parts.size()); ++part) {
+      const Pose inBox = partPose(body, part, Pose{});
+      boxes.back()["parts"].push_back({{"half_extents", jsonOf(body.part(part).halfExtents)},
+                                       {"position", jsonOf(inBox.position)},
+                                       {"axes", jsonOf(inBox.worldFromBody)}});
+    }
   }
   return boxes;
 }

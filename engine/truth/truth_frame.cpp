@@ -70,6 +70,10 @@ class PixelLabels {
   }
 
  private:
+  static const CastBox& partOf(const CastBox& box, std::size_t part) {
+    return box.parts.empty() ? box : box.parts[part];
+  }
+
   static void put(std::vector<float>& numbers, std::size_t place, const Vec3& value) {
     for (std::size_t k = 0; k < 3; ++k) {
       numbers[3 * place + k] = static_cast<float>(value[static_cast<Eigen::Index>(k)]);
@@ -93,12 +97,17 @@ class PixelLabels {
     Vec3 point = now_.eye() + depth * along;
     Vec3 later = point;
     if (isBox) {
-      const Pose& pose = boxesNow_[instance].pose;
-      const int face = cast.face[place] - 1;
-      Vec3 inBody = pose.worldFromBody.transpose() * (point - pose.position);
-      inBody[face / 2] = boxesNow_[instance].halfExtents[face / 2] * (face % 2 == 0 ? -1 : 1);
-      point = inBody;
-      later = boxesNext_[instance].pose.worldPoint(inBody);
+      const std::size_t part = (cast.face[place] - 1U) / 6;
+      const int face = (cast.face[place] - 1) % 6;
+      const CastBox& box = partOf(boxesNow_[instance], part);
+      const Pose& pose = box.pose;
+      Vec3 inBox = pose.worldFromBody.transpose() * (point - pose.position);
+      inBox[face / 2] = box.halfExtents[face / 2] * (face % 2 == 0 ? -1 : 1);
+      const Pose& whole = boxesNow_[instance].pose;
+      point = boxesNow_[instance].parts.empty()
+                  ? inBox
+                  : Vec3(whole.worldFromBody.transpose() * (pose.worldPoint(inBox) - whole.position));
+      later = partOf(boxesNext_[instance], part).pose.worldPoint(inBox);
       if (!normal_.empty()) {
         put(normal_, place, (face % 2 == 0 ? -1.0 : 1.0) * pose.worldFromBody.col(face / 2));
       }
@@ -189,6 +198,14 @@ void checkLabels(const RunSetup& setup) {
     throw InputError("found box " + setup.world.bodies[setup.stage.parts[0].body].name +
                      " drawn as a mesh, expected boxes: rays for labels meet boxes only");
   }
+  constexpr int kMostParts = 42;  // their faces have numbers of one byte
+  for (const Body& body : setup.world.bodies) {
+    if (body.partCount() > kMostParts) {
+      throw InputError("found box " + body.name + " of " + std::to_string(body.partCount()) +
+                       " boxes, expected at most " + std::to_string(kMostParts) +
+                       ": labels number their faces");
+    }
+  }
 }
 
 TruthFrames::TruthFrames(const Trajectory& run)
@@ -208,7 +225,12 @@ std::vector<CastBox> TruthFrames::boxesAt(double filmTime) const {
   const std::vector<Pose> poses = run_.poses(clock_.sceneTime(filmTime));
   std::vector<CastBox> boxes;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    boxes.push_back({.pose = poses[i], .halfExtents = run_.world.bodies[i].halfExtents});
+    const Body& body = run_.world.bodies[i];
+    CastBox& box = boxes.emplace_back(CastBox{.pose = poses[i], .halfExtents = body.halfExtents});
+    for (int part = 0; part < static_cast<int>(body.parts.size()); ++part) {
+      box.parts.push_back(
+          {.pose = partPose(body, part, poses[i]), .halfExtents = body.part(part).halfExtents});
+    }
   }
   return boxes;
 }

@@ -22,9 +22,10 @@ void checkLabels(const RunSetup& setup);
 ///   depth        [m] along the line of sight; 0 where nothing is hit
 ///   distance     [m] from the eye; likewise
 ///   instance     '<i4': 0 nothing, else an id that truth.json explains: boxes from 1 on, then walls
-///   face         '|u1': 0 no box, 1 … 6 its face −x, +x, −y, +y, −z, +z
+///   face         '|u1': 0 no box, 1 … 6 its face −x, +x, −y, +y, −z, +z; of part k of a body of several
+///   boxes, 6 k more
 ///   normal       [1] of the surface, world frame
-///   coordinates  [m] the point hit in its box's own frame; of a wall, in the world
+///   coordinates  [m] the point hit in its body's own frame; of a wall, in the world
 ///   flow         [px] (right, down) from here to where the same point of the same thing is in the next
 ///   frame,
 ///                through impacts too, seen or not. NaN if it is behind the camera then; 0 where nothing is

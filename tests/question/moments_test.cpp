@@ -205,12 +205,11 @@ bool isTrueAt(const Trajectory& run, const Question& question, double time) {
   const Pose middle = boxPose(own, state.pose);
   if (question.kind == Question::Kind::kTouches || question.kind == Question::Kind::kLeaves) {
     const Partner other = question.of[1];
-    const AuditBox a = auditBox(own, state.pose);
     const double gap =
         other.isWall()
-            ? separationOf(a, run.world.walls[other.wall()])
-            : separationOf(a, auditBox(run.world.bodies[static_cast<std::size_t>(other.body())],
-                                       run.state(static_cast<std::size_t>(other.body()), time).pose));
+            ? separationOf(own, state.pose, run.world.walls[other.wall()])
+            : separationOf(own, state.pose, run.world.bodies[static_cast<std::size_t>(other.body())],
+                           run.state(static_cast<std::size_t>(other.body()), time).pose);
     return (gap <= touchingGaps(run).usual) == (question.kind == Question::Kind::kTouches);
   }
   double value = 0;

@@ -50,7 +50,7 @@ CornerCheck checkCorners(const World& world, std::span<const BodyState> states) 
       continue;
     }
     const Vec3 omega = angularVelocity(body.mass, states[i]);
-    for (int c = 0; c < kCorners; ++c) {
+    for (int c = 0; c < body.cornerCount(); ++c) {
       if (!lookAtCorner(world.walls, BodyIndex{static_cast<int>(i)}, states[i], omega, corner(body, c),
                         check)) {
         return check;

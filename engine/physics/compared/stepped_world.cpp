@@ -208,6 +208,12 @@ double SteppedBody::gapOf(const Flying& flying) const {
   const Mat3 columns = body_.mass.worldFromBody(flying.rotation.worldFromBody).toRotationMatrix();
   const Vec3 middle = boxAt({flying.position, columns}, body_).middle();
   for (const Wall& wall : world_.walls) {
+    for (const Vec3& corner : body_.partCorners) {
+      lowest = std::min(lowest, dot(wall.normal, flying.position + columns * corner) - wall.offset);
+    }
+    if (!body_.parts.empty()) {
+      continue;
+    }
     const double reach = dot(body_.halfExtents, (columns.transpose() * wall.normal).cwiseAbs());
     lowest = std::min(lowest, dot(wall.normal, middle) - reach - wall.offset);
   }

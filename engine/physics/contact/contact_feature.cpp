@@ -219,8 +219,8 @@ int freeEdge(const Sides& sides) {
 }
 
 // Of two edges the ends of the common part touch, each a corner of one of them; if of neither, b's moves.
-ContactFeature pointInCone(int a, BoxAt boxA, const Vec3& placeA, const Sides& sidesA, int b, BoxAt boxB,
-                           const Vec3& placeB, const Sides& sidesB, const Vec3& normal) {
+ContactFeature pointInCone(int a, const BoxAt& boxA, const Vec3& placeA, const Sides& sidesA, int b,
+                           const BoxAt& boxB, const Vec3& placeB, const Sides& sidesB, const Vec3& normal) {
   ContactFeature feature{.kind = ContactFeature::Kind::kInCone,
                          .a = a,
                          .b = b,
@@ -248,7 +248,8 @@ ContactFeature pointOnFace(int a, const Vec3& point, int b, const Mat3& worldFro
 }
 
 // Places of the feature are from the boxes' middles.
-ContactFeature featureInOrder(const ContactPoint& point, double apart, int a, BoxAt boxA, int b, BoxAt boxB) {
+ContactFeature featureInOrder(const ContactPoint& point, double apart, int a, const BoxAt& boxA, int b,
+                              const BoxAt& boxB) {
   const Pose& poseA = boxA.pose;
   const Pose& poseB = boxB.pose;
   const Vec3& halfExtentsA = boxA.halfExtents;
@@ -342,8 +343,9 @@ ContactState stateOfNormal(const ContactFeature& feature, const Kinematics& a, T
 
 bool isSame(const ContactFeature& x, const ContactFeature& y) {
   return x.kind == y.kind && x.joint == y.joint && x.part == y.part && x.a == y.a && x.b == y.b &&
-         x.axisA == y.axisA && x.axisB == y.axisB && x.sign == y.sign &&
-         (x.onA - y.onA).isZero(1e-9 * x.onA.norm()) && (x.onB - y.onB).isZero(1e-9 * x.onB.norm());
+         x.boxA == y.boxA && x.boxB == y.boxB && x.axisA == y.axisA && x.axisB == y.axisB &&
+         x.sign == y.sign && (x.onA - y.onA).isZero(1e-9 * x.onA.norm()) &&
+         (x.onB - y.onB).isZero(1e-9 * x.onB.norm());
 }
 
 bool hasCorner(std::span<const ContactFeature> features, const ContactFeature& corner) {
@@ -380,10 +382,33 @@ void addDriven(const Kinematics& a, const Kinematics& b, ContactState& state) {
 
 }  // namespace
 
+TouchingShape shapeOf(const Body& body, int index) {
+  if (body.parts.empty() || index == ContactFeature::kWhole) {
+    return {.halfExtents = body.halfExtents, .center = body.boxCenter};
+  }
+  const BodyPart& part = body.part(index);
+  return {.halfExtents = part.halfExtents,
+          .center = part.center,
+          .bodyFromBox = part.turned ? &part.bodyFromPart : nullptr};
+}
+
 ContactState contactState(const ContactFeature& feature, const Kinematics& a, TouchingShape boxA,
                           const Kinematics& b, TouchingShape boxB) {
   if (feature.isOfJoint()) {
     return jointState(feature, a, boxA, b, boxB);
+  }
+  if (boxA.bodyFromBox != nullptr || boxB.bodyFromBox != nullptr) {
+    const auto inBox = [](const Kinematics& body, TouchingShape& box) {
+      Kinematics own = body;
+      if (box.bodyFromBox != nullptr) {
+        own.pose.worldFromBody = body.pose.worldFromBody * *box.bodyFromBox;
+      }
+      box.bodyFromBox = nullptr;
+      return own;
+    };
+    const Kinematics ofA = inBox(a, boxA);
+    const Kinematics ofB = inBox(b, boxB);
+    return contactState(feature, ofA, boxA, ofB, boxB);
   }
   ContactState state = stateOfNormal(feature, a, boxA, b, boxB);
   if (feature.axes != 0) {
@@ -416,7 +441,8 @@ double ContactState::passing() const {
   return fastest;
 }
 
-ContactFeature featureAt(const ContactPoint& point, double apart, int a, BoxAt boxA, int b, BoxAt boxB) {
+ContactFeature featureAt(const ContactPoint& point, double apart, int a, const BoxAt& boxA, int b,
+                         const BoxAt& boxB) {
   ContactFeature feature = comesFirst(boxB, boxA) ? featureInOrder(swapped(point), apart, b, boxB, a, boxA)
                                                   : featureInOrder(point, apart, a, boxA, b, boxB);
   if (!boxA.isCentered() || !boxB.isCentered()) {
@@ -425,6 +451,8 @@ ContactFeature featureAt(const ContactPoint& point, double apart, int a, BoxAt b
       feature.onB += (feature.a == a ? boxB : boxA).center;
     }
   }
+  feature.boxA = (feature.a == a ? boxA : boxB).part;
+  feature.boxB = (feature.a == a ? boxB : boxA).part;
   return feature;
 }
 

@@ -25,6 +25,13 @@ enum class JointPart : unsigned char {
   kGrip,     ///< the rate of its coordinate
 };
 
+/// One of the boxes of a body, which is given by its index.
+struct BoxOf {
+  int body = 0;
+  int box = 0;
+  bool operator==(const BoxOf&) const = default;
+};
+
 /// A contact given by the touching parts of the bodies rather than by a point, so that it stays valid while
 /// they move. Coincident faces, edges and corners give one feature for each point of the contact manifold. Or
 /// a condition of a joint: one that holds takes every impulse; one that only ends on one side, as a limit or
@@ -43,21 +50,30 @@ struct ContactFeature {
   Kind kind = Kind::kPointOnWall;
   int a = 0;                    ///< index of a body; the normal points to it
   int b = 0;                    ///< index of a body, which may be a half-space
-  Vec3 onA = Vec3::Zero();      ///< [m] in a's frame: the point, or its edge's middle
-  Vec3 onB = Vec3::Zero();      ///< [m] in b's frame: the point, or its edge's middle
-  int axisA = 0;                ///< body axis along a's edge; kNoEdge for a point
-  int axisB = 0;                ///< body axis along b's edge, or normal to b's face; kNoEdge for a point
+  int boxA = kWhole;            ///< of two boxes: which of a's
+  int boxB = kWhole;            ///< likewise of b's
+  Vec3 onA = Vec3::Zero();      ///< [m] in the frame of a's box, else a's: the point, or its edge's middle
+  Vec3 onB = Vec3::Zero();      ///< [m] likewise of b's
+  int axisA = 0;                ///< axis of its box along a's edge; kNoEdge for a point
+  int axisB = 0;                ///< likewise along b's edge, or normal to b's face; kNoEdge for a point
   double sign = 1;              ///< of the face's outward normal, or of the edges' cross product
   Material material = {};       ///< of the pair
-  Vec3 normalA = Vec3::Zero();  ///< [1] kInCone: the normal when it began, in a's frame
-  Vec3 normalB = Vec3::Zero();  ///< [1] likewise in b's
+  Vec3 normalA = Vec3::Zero();  ///< [1] kInCone: the normal when it began, in the frame of a's box
+  Vec3 normalB = Vec3::Zero();  ///< [1] likewise of b's
   AxisSet axes = 0;             ///< of both boxes, one of which keeps them apart as well as the normal does
 
   const Joint* joint = nullptr;  ///< of which it is a condition
   JointPart part{};
 
   static constexpr int kNoEdge = -1;
+  static constexpr int kWhole = -1;  ///< no box in particular
 
+  BoxOf ofA() const { return {a, boxA}; }
+  BoxOf ofB() const { return {b, boxB}; }
+  /// Whether it is a contact of two boxes, in any order.
+  bool isBetween(const BoxOf& x, const BoxOf& y) const {
+    return !isOfJoint() && ((ofA() == x && ofB() == y) || (ofA() == y && ofB() == x));
+  }
   bool isOfJoint() const { return joint != nullptr; }
   bool holds() const { return kind == Kind::kJoint; }
   bool grips() const { return kind == Kind::kJointGrip; }
@@ -122,13 +138,18 @@ struct ContactState {
   void setNormal(const Vec3& normal, const Vec3& normalRate);
 };
 
-/// A body's shape, as an argument: a view, not to be stored. A box, by its size and place in the body, or a
-/// half-space.
+/// A shape of a body, as an argument: a view, not to be stored. A box, by its size and place in the body, or
+/// a half-space.
 struct TouchingShape {
-  const Vec3& halfExtents;                ///< [m]
-  const Vec3& center = BoxAt::kCentered;  ///< [m] its middle, body frame
+  const Vec3& halfExtents;         ///< [m]
+  const Vec3& center = kCentered;  ///< [m] its middle, own frame
   const Wall* halfSpace = nullptr;
+  const Mat3* bodyFromBox = nullptr;  ///< null: its axes are the body's
+
+  static inline const Vec3 kCentered = Vec3::Zero();
 };
+/// One box of a body, or that around all of them.
+TouchingShape shapeOf(const Body& body, int index);
 
 /// Whether both are the same parts of the same bodies, whatever else is known of them.
 bool isSame(const ContactFeature& x, const ContactFeature& y);
@@ -147,6 +168,7 @@ ContactState contactState(const ContactFeature& feature, const Kinematics& a, To
 
 /// The feature of two boxes at a point of boxContactPoints. `apart` [m] is their gap, negative for
 /// penetration: a crossing of edges lies halfway between them.
-ContactFeature featureAt(const ContactPoint& point, double apart, int a, BoxAt boxA, int b, BoxAt boxB);
+ContactFeature featureAt(const ContactPoint& point, double apart, int a, const BoxAt& boxA, int b,
+                         const BoxAt& boxB);
 
 }  // namespace careen

@@ -93,7 +93,8 @@ void ContactSystem::closeAll() {
 ContactState ContactSystem::stateOf(const ContactFeature& feature) const {
   const auto a = static_cast<std::size_t>(feature.a);
   const auto b = static_cast<std::size_t>(feature.b);
-  return contactState(feature, kinematics_[a], bodies_[a].shape(), kinematics_[b], bodies_[b].shape());
+  return contactState(feature, kinematics_[a], bodies_[a].shape(feature.boxA), kinematics_[b],
+                      bodies_[b].shape(feature.boxB));
 }
 
 double ContactSystem::touching(std::size_t body) const {
@@ -142,7 +143,7 @@ void ContactSystem::look(std::span<const double> y) {
   }
   for (std::size_t i = 0; isDriven_ && i < bodies_.size(); ++i) {
     if (bodies_[i].isDriven()) {
-      kinematics_[i] = bodies_[i].part->at(y.back());
+      kinematics_[i] = bodies_[i].drivenBy->at(y.back());
     }
   }
   for (std::size_t c = 0; c < features_.size(); ++c) {

@@ -24,7 +24,7 @@ void forCorners(std::span<const TouchingBody> bodies, std::size_t box, const IsN
       ContactFeature feature{.a = static_cast<int>(box),
                              .b = static_cast<int>(b),
                              .material = touching(bodies[box].material(), bodies[b].material())};
-      for (int k = 0; k < kCorners; ++k) {
+      for (int k = 0; k < bodies[box].body->cornerCount(); ++k) {
         feature.onA = corner(*bodies[box].body, k);
         visit(feature, *bodies[b].halfSpace);
       }

@@ -55,12 +55,9 @@ void EventFunctions::listContacts() {
     }
   }
   for (std::size_t c = 0; c < features.size(); ++c) {
-    const bool first =
-        std::none_of(features.begin(), features.begin() + static_cast<std::ptrdiff_t>(c),
-                     [&](const ContactFeature& other) {
-                       return !other.isOfJoint() && ((other.a == features[c].a && other.b == features[c].b) ||
-                                                     (features[c].b == other.a && other.b == features[c].a));
-                     });
+    const bool first = std::none_of(
+        features.begin(), features.begin() + static_cast<std::ptrdiff_t>(c),
+        [&](const ContactFeature& other) { return other.isBetween(features[c].ofA(), features[c].ofB()); });
     if (isOfBoxes(features[c]) && first) {
       functions_.push_back({.kind = Kind::kOverlap, .contact = c});
     }
@@ -146,8 +143,8 @@ double EventFunctions::valueOf(const EventFunction& event) const {
     case EventFunction::Kind::kOverlap: {
       const std::size_t a = firstBody(c);
       const std::size_t b = secondBody(c);
-      return BoxAxes(boxAt(system_.kinematics(a).pose, *system_.bodies()[a].body),
-                     boxAt(system_.kinematics(b).pose, *system_.bodies()[b].body))
+      return BoxAxes(boxAt(system_.kinematics(a).pose, *system_.bodies()[a].body, system_.features()[c].boxA),
+                     boxAt(system_.kinematics(b).pose, *system_.bodies()[b].body, system_.features()[c].boxB))
                  .gap() +
              event.margin;
     }
@@ -203,18 +200,16 @@ bool EventFunctions::hasTension() const {
   });
 }
 
-bool EventFunctions::coverPair(std::size_t a, std::size_t b) const {
+bool EventFunctions::coverBoxes(const BoxOf& a, const BoxOf& b) const {
   const std::vector<ContactFeature>& features = system_.features();
-  const auto isBetween = [&](std::size_t c) {
-    return !features[c].isOfJoint() &&
-           ((firstBody(c) == a && secondBody(c) == b) || (firstBody(c) == b && secondBody(c) == a));
-  };
+  const auto isBetween = [&](std::size_t c) { return features[c].isBetween(a, b); };
   for (std::size_t c = 0; c < features.size(); ++c) {
     if (isBetween(c) && system_.pushes(c)) {
       return true;
     }
   }
-  const double within = kTouching * std::max(system_.touching(a), system_.touching(b));
+  const double within = kTouching * std::max(system_.touching(static_cast<std::size_t>(a.body)),
+                                             system_.touching(static_cast<std::size_t>(b.body)));
   return std::any_of(functions_.begin(), functions_.end(), [&](const EventFunction& event) {
     return event.kind == EventFunction::Kind::kOverlap && isBetween(event.contact) &&
            event.start - event.margin <= within;

@@ -64,8 +64,8 @@ class EventFunctions {
   /// At the start of the step some contact force is tensile, and its friction would drive the slip: the modes
   /// found are inconsistent.
   bool hasTension() const;
-  /// Whether they cover two bodies, because those were in contact at the start of the step.
-  bool coverPair(std::size_t a, std::size_t b) const;
+  /// Whether they cover two boxes, because those were in contact at the start of the step.
+  bool coverBoxes(const BoxOf& a, const BoxOf& b) const;
   /// Whether all contacts are open for good: the bodies are in free flight.
   bool areClear() const;
 

@@ -122,10 +122,12 @@ double EventLocator::lowestOfEnd(const ContactFeature& end, double margin) const
     return body.isHeld() ? system_.kinematics(i)
                          : Kinematics{.pose = stateAt(Motion(step_.motion(i)), body.body->mass, time).pose};
   };
-  const auto shapeOf = [&](int index) { return system_.bodies()[static_cast<std::size_t>(index)].shape(); };
+  const auto shapeAt = [&](int index, int box) {
+    return system_.bodies()[static_cast<std::size_t>(index)].shape(box);
+  };
   const auto valueAt = [&](double time) {
-    const ContactState state =
-        contactState(end, motionOf(end.a, time), shapeOf(end.a), motionOf(end.b, time), shapeOf(end.b));
+    const ContactState state = contactState(end, motionOf(end.a, time), shapeAt(end.a, end.boxA),
+                                            motionOf(end.b, time), shapeAt(end.b, end.boxB));
     return state.gap + margin;
   };
   const double lowest = lowestBetween(0, step_.length(), valueAt);
@@ -160,7 +162,7 @@ double EventLocator::deepMomentOf(std::size_t contact) const {
   const std::vector<TouchingBody>& bodies = system_.bodies();
   const auto motionOf = [&](std::size_t i) {
     const TouchingBody& body = bodies[i];
-    return body.isDriven() ? Motion(body.part->motion.after(body.time - body.part->from))
+    return body.isDriven() ? Motion(body.drivenBy->motion.after(body.time - body.drivenBy->from))
            : body.isHeld() ? Motion(Rest{system_.kinematics(i).pose})
                            : Motion(step_.motion(i));
   };
@@ -169,7 +171,8 @@ double EventLocator::deepMomentOf(std::size_t contact) const {
   const auto gapAt = [&](double time) {
     const Pose poseA = stateAt(ofA, bodies[a].body->mass, time).pose;
     const Pose poseB = stateAt(ofB, bodies[b].body->mass, time).pose;
-    return BoxAxes(boxAt(poseA, *bodies[a].body), boxAt(poseB, *bodies[b].body)).gap();
+    return BoxAxes(boxAt(poseA, *bodies[a].body, feature.boxA), boxAt(poseB, *bodies[b].body, feature.boxB))
+        .gap();
   };
   return deepMoment(gapAt, step_.length(), tolerance_);
 }

@@ -39,11 +39,15 @@ void FoundContacts::addCorners(std::size_t body, const Pose& pose) {
 
 void FoundContacts::addBetween(std::size_t a, std::size_t b, const std::vector<Pose>& poses,
                                const GroupState& at, double slow) {
-  const BoxAt boxA = boxAt(poses[a], group_.body(a));
-  const BoxAt boxB = boxAt(poses[b], group_.body(b));
-  if (BoxAxes(boxA, boxB).gap() > closed_) {
-    return;
-  }
+  forBoxes(group_.body(a), poses[a], group_.body(b), poses[b], [&](const BoxAt& boxA, const BoxAt& boxB) {
+    if (BoxAxes(boxA, boxB).gap() <= closed_) {
+      addBetween(a, boxA, b, boxB, at, slow);
+    }
+  });
+}
+
+void FoundContacts::addBetween(std::size_t a, const BoxAt& boxA, std::size_t b, const BoxAt& boxB,
+                               const GroupState& at, double slow) {
   const Kinematics ofA = group_.kinematics(a, at[a]);
   const Kinematics ofB = group_.kinematics(b, at[b]);
   const ChosenContact contact =

@@ -51,6 +51,8 @@ class FoundContacts {
   int indexOf(const ContactFeature& feature) const;
   void addBetween(std::size_t a, std::size_t b, const std::vector<Pose>& poses, const GroupState& at,
                   double slow);
+  void addBetween(std::size_t a, const BoxAt& boxA, std::size_t b, const BoxAt& boxB, const GroupState& at,
+                  double slow);
 
   TouchingGroup& group_;
   double closed_;

@@ -45,8 +45,19 @@ void GapEvents::list(const FoundContacts& contacts, const GroupState& start, dou
     listCorners(contacts, start, i, reach[i]);
     for (std::size_t j = i + 1; j < group_.boxes(); ++j) {
       if (group_.mayMeet(i, j, start, reach[i] + reach[j])) {
-        add({.kind = Kind::kPair, .feature = {.a = static_cast<int>(i), .b = static_cast<int>(j)}}, start);
+        listPairs(i, j, start);
       }
+    }
+  }
+}
+
+// Of all boxes of two bodies.
+void GapEvents::listPairs(std::size_t a, std::size_t b, const GroupState& start) {
+  for (int i = 0; i < group_.body(a).partCount(); ++i) {
+    for (int j = 0; j < group_.body(b).partCount(); ++j) {
+      add({.kind = Kind::kPair,
+           .feature = {.a = static_cast<int>(a), .b = static_cast<int>(b), .boxA = i, .boxB = j}},
+          start);
     }
   }
 }
@@ -81,7 +92,8 @@ void GapEvents::add(const Event& added, const GroupState& start) {
 BoxAxes GapEvents::axesOf(const Event& pair, const GroupState& at) const {
   const Pose ofA = at[pair.a()].pose();
   const Pose ofB = at[pair.b()].pose();
-  return {boxAt(ofA, group_.body(pair.a())), boxAt(ofB, group_.body(pair.b()))};
+  return {boxAt(ofA, group_.body(pair.a()), pair.feature.boxA),
+          boxAt(ofB, group_.body(pair.b()), pair.feature.boxB)};
 }
 
 double GapEvents::value(const Event& event, const GroupState& at) const {
@@ -183,8 +195,8 @@ GapEvents::Bounds GapEvents::boundsOn(const Event& event, const GroupPath& path)
     const double radius = radiusOf(group_.body(body));
     lengths += radius;
     if (!group_.isHeld(body) || group_.isDriven(body)) {
-      const StepBounds of =
-          group_.isDriven(body) ? boundsOf(group_.bodies()[body].part->motion) : boundsOf(path.motion(body));
+      const StepBounds of = group_.isDriven(body) ? boundsOf(group_.bodies()[body].drivenBy->motion)
+                                                  : boundsOf(path.motion(body));
       const double turns = of.angularSpeed * of.angularSpeed + of.angularAcceleration;
       linear += of.acceleration;
       speed += of.speed;
@@ -231,10 +243,12 @@ bool GapEvents::staysOpenOnEdges(const Event& event, const GroupPath& path, doub
   const std::array<Pose, 2> first = posesAt(from.time);
   const std::array<Pose, 2> second = posesAt(to.time);
   const auto along = [&](const Vec3& direction, const std::array<Pose, 2>& poses) {
-    return gapAlong(boxAt(poses[0], bodyA), boxAt(poses[1], bodyB), direction);
+    return gapAlong(boxAt(poses[0], bodyA, event.feature.boxA), boxAt(poses[1], bodyB, event.feature.boxB),
+                    direction);
   };
   const auto isOpenAlongNormalOf = [&](const std::array<Pose, 2>& poses) {
-    const BoxAxes axes(boxAt(poses[0], bodyA), boxAt(poses[1], bodyB));
+    const BoxAxes axes(boxAt(poses[0], bodyA, event.feature.boxA),
+                       boxAt(poses[1], bodyB, event.feature.boxB));
     const Vec3 direction = axes.normal(axes.best());
     const double lowest = std::min(along(direction, first), along(direction, second));
     return event.margin + lowest - below >= least();

@@ -52,6 +52,7 @@ class GapEvents {
     double fixed = 0;      // [m/s²] second derivative of its separation along a direction fixed in space
   };
 
+  void listPairs(std::size_t a, std::size_t b, const GroupState& start);
   void listCorners(const FoundContacts& contacts, const GroupState& start, std::size_t body, double reach);
   void add(const Event& event, const GroupState& start);
   double least() const { return -0.5 * closed_; }  // [m] less is closed

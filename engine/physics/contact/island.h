@@ -74,8 +74,8 @@ class Island {
   const ContactSystem& system() const { return system_; }
   const std::vector<TouchingBody>& bodies() const { return system_.bodies(); }
   const std::vector<ContactFeature>& joints() const { return joints_; }
-  /// Whether the event functions cover two bodies, because they were in contact at the start of the step.
-  bool handlesPair(std::size_t a, std::size_t b) const { return timeSteps_ || events_.coverPair(a, b); }
+  /// Whether the event functions cover two boxes, because they were in contact at the start of the step.
+  bool handles(const BoxOf& a, const BoxOf& b) const { return timeSteps_ || events_.coverBoxes(a, b); }
   /// Motion of a movable body in the last step.
   ContactStep motion(std::size_t body) const {
     return timeSteps_ ? timeSteps_->stepper().motion(body) : step_.motion(body);

@@ -132,7 +132,7 @@ double SmoothStep::longest() {
     const TouchingBody& body = system_.bodies()[i];
     const double turning =
         std::max(system_.kinematics(i).angularVelocity.norm(),
-                 body.isDriven() && body.part->motion.swings() ? body.part->motion.rate : 0);
+                 body.isDriven() && body.drivenBy->motion.swings() ? body.drivenBy->motion.rate : 0);
     if (turning > 0) {
       most = std::min(most, kMostTurn / turning);
     }
@@ -143,10 +143,10 @@ double SmoothStep::longest() {
         !system_.features()[c].isOfJoint()) {
       const auto a = static_cast<std::size_t>(system_.features()[c].a);
       const auto b = static_cast<std::size_t>(system_.features()[c].b);
-      most = std::min(most, kMostSlip *
-                                std::min(system_.bodies()[a].body->halfExtents.minCoeff(),
-                                         system_.bodies()[b].body->halfExtents.minCoeff()) /
-                                speed);
+      most = std::min(
+          most, kMostSlip *
+                    std::min(system_.bodies()[a].body->thinnest(), system_.bodies()[b].body->thinnest()) /
+                    speed);
     }
     if (system_.modes()[c] == ContactForces::Mode::kSlip) {
       const double rate = system_.slipSpeedRate(c);

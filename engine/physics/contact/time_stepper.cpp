@@ -51,7 +51,7 @@ double TimeStepper::shortestStep() {
   double acceleration = std::max(acceleration_, equations_.loads().acceleration(step_.start));
   for (const TouchingBody& body : bodies_) {
     if (body.isDriven()) {
-      const MotionRates rates = boundsOf(body.part->motion);
+      const MotionRates rates = boundsOf(body.drivenBy->motion);
       fastest = std::max(fastest, rates.speed + rates.angularSpeed * radiusOf(*body.body));
     }
   }
@@ -76,14 +76,14 @@ double TimeStepper::longestStep() const {
     const Kinematics at = equations_.group().kinematics(i, step_.start[i]);
     const double turning = std::max(
         at.angularVelocity.norm(),
-        bodies_[i].isDriven() && bodies_[i].part->motion.swings() ? bodies_[i].part->motion.rate : 0);
+        bodies_[i].isDriven() && bodies_[i].drivenBy->motion.swings() ? bodies_[i].drivenBy->motion.rate : 0);
     const double radius = radiusOf(*bodies_[i].body);
     const double speed = at.velocity.norm() + turning * radius;
     if (turning > 0) {
       most = std::min(most, kStepTurn / turning);
     }
     if (speed > 0) {
-      most = std::min(most, kMostWay * bodies_[i].body->halfExtents.minCoeff() / speed);
+      most = std::min(most, kMostWay * bodies_[i].body->thinnest() / speed);
       first = std::min(first, kFirst * radius / speed);
     }
     if (acceleration_ > 0) {
@@ -276,7 +276,7 @@ double TimeStepper::wayApart() const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const GroupBody& from = step_.end[i];
     const Mat3 turned = end_[i].worldFromBody.toRotationMatrix() - from.worldFromBody.toRotationMatrix();
-    for (int k = 0; k < kCorners; ++k) {
+    for (int k = 0; k < bodies_[i].body->cornerCount(); ++k) {
       most = std::max(most, (end_[i].position - from.position + turned * corner(*bodies_[i].body, k)).norm());
     }
   }

@@ -19,7 +19,7 @@ double drivenAcceleration(std::span<const TouchingBody> bodies) {
   double most = 0;
   for (const TouchingBody& body : bodies) {
     if (body.isDriven()) {
-      const MotionRates rates = boundsOf(body.part->motion);
+      const MotionRates rates = boundsOf(body.drivenBy->motion);
       const double turning = rates.angularSpeed * rates.angularSpeed + rates.angularAcceleration;
       most = std::max(most, rates.acceleration + turning * radiusOf(*body.body));
     }

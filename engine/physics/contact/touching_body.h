@@ -17,14 +17,19 @@ struct TouchingBody {
   Quat worldFromBody = Quat::Identity();
   Vec3 velocity = Vec3::Zero();             ///< [m/s]
   Vec3 angularVelocityBody = Vec3::Zero();  ///< [rad/s] body frame
-  const CoursePart* part = nullptr;         ///< if it is driven: by that
+  const CoursePart* drivenBy = nullptr;     ///< if it is driven: by that
   double time = 0;                          ///< [s] likewise: when it is there
 
-  bool isDriven() const { return part != nullptr; }
+  bool isDriven() const { return drivenBy != nullptr; }
   bool isHeld() const { return isImmovable(body->mass); }
   bool isBox() const { return halfSpace == nullptr; }
   bool isNowhere() const { return halfSpace == &nowhere(); }
-  TouchingShape shape() const { return {body->halfExtents, body->boxCenter, halfSpace}; }
+  /// Of a half-space that, else one of its boxes.
+  TouchingShape shape(int box) const {
+    return isBox() ? shapeOf(*body, box)
+                   : TouchingShape{
+                         .halfExtents = body->halfExtents, .center = body->boxCenter, .halfSpace = halfSpace};
+  }
   const Material& material() const { return isBox() ? body->material : halfSpace->material; }
   BodyState state() const {
     const Mat3 columns = worldFromBody.toRotationMatrix();
@@ -35,7 +40,7 @@ struct TouchingBody {
   }
   Kinematics kinematics() const {
     if (isDriven()) {
-      return part->at(time);
+      return drivenBy->at(time);
     }
     const Mat3 columns = worldFromBody.toRotationMatrix();
     return {

@@ -54,7 +54,7 @@ Vec3 TouchingGroup::angularVelocity(std::size_t body, const Mat3& worldFromBody,
 
 Kinematics TouchingGroup::kinematics(std::size_t body, const GroupBody& at) const {
   if (isDriven(body)) {
-    return bodies_[body].part->at(at.time);
+    return bodies_[body].drivenBy->at(at.time);
   }
   Kinematics kinematics{.pose = at.pose()};
   if (!isHeld(body)) {
@@ -85,7 +85,7 @@ ContactState TouchingGroup::stateOf(const ContactFeature& feature, const Kinemat
                                     const Kinematics& b) const {
   const TouchingBody& bodyA = bodies_[static_cast<std::size_t>(feature.a)];
   const TouchingBody& bodyB = bodies_[static_cast<std::size_t>(feature.b)];
-  ContactState at = contactState(feature, a, bodyA.shape(), b, bodyB.shape());
+  ContactState at = contactState(feature, a, bodyA.shape(feature.boxA), b, bodyB.shape(feature.boxB));
   if (bodyB.isBox() && !feature.isOfJoint()) {  // one point for both, else their impulses would change
                                                 // angular momentum by gap × friction
     const Vec3 link = (a.pose.position - b.pose.position) + (at.armA - at.armB);

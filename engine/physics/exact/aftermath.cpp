@@ -116,7 +116,7 @@ void settleBody(const Bodies& bodies, Encounter& encounter, std::size_t index, c
     }
     Vec3 acceleration = pull + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
     if (other.isDriven()) {
-      const Kinematics driven = other.part->at(encounter.time.hi);
+      const Kinematics driven = other.drivenBy->at(encounter.time.hi);
       const Vec3& armOf = isA ? contact.armB : contact.armA;
       acceleration -=
           driven.accelerationAt(armOf) + driven.angularVelocity.cross(driven.angularVelocity.cross(armOf));
@@ -128,7 +128,7 @@ void settleBody(const Bodies& bodies, Encounter& encounter, std::size_t index, c
                             .departure = std::max(0.0, partingAt(encounter, k).speed),
                             .restitution = contact.material.restitution,
                             .gapRounding = hopRounding(encounter, each, k)};
-    if (!settles(bouncing, body.halfExtents.minCoeff())) {
+    if (!settles(bouncing, body.thinnest())) {
       continue;
     }
     encounter.persists[k] = 1;

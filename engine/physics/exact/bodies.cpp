@@ -333,8 +333,7 @@ void Bodies::predict(int rank) {
     if (body.isDriven() && !looksFor(body, (*this)[candidate])) {
       continue;
     }
-    if (mayTouch(world_, body.listed.value, (*this)[candidate].listed.value) &&
-        (!body.steps() || !body.group->seesTo(body.place, candidate))) {
+    if (mayTouch(world_, body.listed.value, (*this)[candidate].listed.value)) {
       takeSooner(first, firstMeeting(body, (*this)[candidate], first ? first->time : end_));
     }
   }

@@ -40,8 +40,8 @@ class ContactGroup : public std::enable_shared_from_this<ContactGroup> {
   virtual bool enter(Encounter& encounter, int rank) = 0;
   /// Adds the contacts that it has to those of an encounter that it entered.
   virtual void addFeatures(const Encounter& encounter, std::vector<ContactFeature>& features) const = 0;
-  /// Whether it handles contact of a member with that body itself.
-  virtual bool seesTo(std::size_t place, int rank) const = 0;
+  /// Whether it handles contact of a member's box with one of another body, given by rank, itself.
+  virtual bool seesTo(std::size_t place, int box, const BoxOf& other) const = 0;
   /// Whether it is predicted whom its members meet in a step, but for those it sees to.
   virtual bool isPredicted() const = 0;
   /// The run ends within its step, at that time.

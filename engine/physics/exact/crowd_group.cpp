@@ -30,8 +30,8 @@ bool CrowdGroup::enter(Encounter& encounter, int /*rank*/) {
   return false;
 }
 
-bool CrowdGroup::seesTo(std::size_t /*place*/, int rank) const {
-  return has(bodies_[rank]) || !restsOnlySince(bodies_[rank], start_);
+bool CrowdGroup::seesTo(std::size_t /*place*/, int /*box*/, const BoxOf& other) const {
+  return has(bodies_[other.body]) || !restsOnlySince(bodies_[other.body], start_);
 }
 
 // ---- Members.
@@ -102,7 +102,7 @@ void CrowdGroup::enlist(int rank, const Instant& time, const BodyState& state, c
   if (body.isDriven()) {
     if (std::find(ranks_.begin(), ranks_.end(), rank) == ranks_.end()) {
       const BodyState now = body.stateAt(time);
-      keepPlace(rank, crowd_.admit(listedOf(body), now, Quat(now.pose.worldFromBody), 0, body.part));
+      keepPlace(rank, crowd_.admit(listedOf(body), now, Quat(now.pose.worldFromBody), 0, body.drivenBy));
     }
     return;
   }
@@ -158,8 +158,7 @@ void CrowdGroup::enlistAtRest(int rank) {
     for (const int candidate : bodies_.around(reached[k])) {
       const Mover& other = bodies_[candidate];
       if (mayTouch(bodies_.world(), body.listed.value, other.listed.value) &&
-          areTouching(boxAt(body.pose, *body.body), boxAt(other.pose, *other.body),
-                      bodies_.crowds().tolerance)) {
+          areTouching(*body.body, body.pose, *other.body, other.pose, bodies_.crowds().tolerance)) {
         reach(candidate);
       }
     }

@@ -28,7 +28,7 @@ class CrowdGroup final : public ContactGroup {
   bool enter(Encounter& encounter, int rank) override;
   void addFeatures(const Encounter&, std::vector<ContactFeature>&) const override {}
   /// What it meets is found when it takes its step, but for what comes to rest within it.
-  bool seesTo(std::size_t place, int rank) const override;
+  bool seesTo(std::size_t place, int box, const BoxOf& other) const override;
   bool isPredicted() const override { return false; }
   void endRun(const Instant& time) override;
 

@@ -17,9 +17,11 @@ class MemberStep {
     const BodyState state = stateAt(Motion(step_), body_.mass, elapsed);
     return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(body_.mass, state)};
   }
-  MovingBox moving() const {
-    return {.halfExtents = body_.halfExtents,
-            .center = body_.boxCenter,
+  MovingBox moving(int box) const {
+    const TouchingShape shape = shapeOf(body_, box);
+    return {.halfExtents = shape.halfExtents,
+            .center = shape.center,
+            .bodyFromBox = shape.bodyFromBox,
             .position = step_.position[0],
             .velocity = Vec3::Zero(),
             .acceleration = Vec3::Zero(),
@@ -52,15 +54,34 @@ ContactStep unpushed(const Crowd& crowd, std::size_t place, const Vec3& gravity,
   return asContactStep(cubicStep(from, to, length));
 }
 
+// Whether any box of a body meets one of another in so long [s] from `time` on; `moving(box)` of the other.
+template <class Moving>
+bool anyMeet(const Mover& body, const Instant& time, const Body& other, double length, const Moving& moving) {
+  for (int i = 0; i < body.body->partCount(); ++i) {
+    for (int j = 0; j < other.partCount(); ++j) {
+      if (firstContactOfBoxes(body.moving(time, i), moving(j), {.from = 0, .until = length}).kind !=
+          ContactKind::kNone) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 bool meetsWithin(const Bodies& bodies, const CrowdGroup& group, const Mover& outsider, const Mover& member,
                  const Instant& time, double length) {
-  const MovingBox body = outsider.moving(time);
-  const SearchWindow window{.from = 0, .until = length};
   const MemberStep step(*member.body, unpushed(group.crowd(), member.place, bodies.world().gravity, length));
-  const FirstContact contact = group.crowd().sleeps(member.place)
-                                   ? firstContactOfBoxes(body, member.moving(time), window)
-                                   : firstContactOfBoxes(body, step.moving(), window);
-  return contact.kind != ContactKind::kNone;
+  const bool sleeps = group.crowd().sleeps(member.place);
+  return anyMeet(outsider, time, *member.body, length,
+                 [&](int box) { return sleeps ? member.moving(time, box) : step.moving(box); });
+}
+
+bool areNearer(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double way) {
+  bool areAny = false;
+  forBoxes(a, poseA, b, poseB, [&](const BoxAt& boxA, const BoxAt& boxB) {
+    areAny = areAny || BoxAxes(boxA, boxB).gap() <= way;
+  });
+  return areAny;
 }
 
 /// Whether any member in the cells around that body, which may touch it, does that.
@@ -115,14 +136,13 @@ bool wasMet(const Bodies& bodies, const CrowdGroup& group, int rank, const Insta
   const Pose pose = body.moves() ? body.stateAt(time).pose : body.pose;
   const double way = body.steps() || body.isDriven() ? length * body.bounds.speed : 0;
   return length > 0 && anyMember(bodies, group, rank, [&](const Mover& member) {
-           if (!crowd.cameNear(member.place, boxAt(pose, *body.body), way)) {
+           if (!crowd.cameNear(member.place, *body.body, pose, way)) {
              return false;
            }
            const MemberStep step(
                *member.body,
                asContactStep(cubicStep(crowd.begin(member.place), crowd.end(member.place), crowd.length())));
-           return firstContactOfBoxes(body.moving(time), step.moving(), {.from = 0, .until = length}).kind !=
-                  ContactKind::kNone;
+           return anyMeet(body, time, *member.body, length, [&](int box) { return step.moving(box); });
          });
 }
 
@@ -146,7 +166,7 @@ bool meetsNext(const Bodies& bodies, const CrowdGroup& group, int rank, const In
         within * ((state.velocity - at.velocity).norm() + turning + at.radius * at.omega.norm() +
                   (within + at.behind) * bodies.world().gravity.norm());
     if ((state.pose.position - at.position).norm() > radius + at.radius + way ||
-        BoxAxes(boxAt(state.pose, *body.body), boxAt(stateOf(at).pose, *member.body)).gap() > way) {
+        !areNearer(*body.body, state.pose, *member.body, stateOf(at).pose, way)) {
       return false;
     }
     return !body.moves() || body.isDriven() || isOfCrowd ||
@@ -170,7 +190,7 @@ std::vector<int> nearStep(const Bodies& bodies, const CrowdGroup& group) {
         length * (body.steps() || body.isDriven() ? body.bounds.speed
                                                   : speed + length * bodies.world().gravity.norm());
     return !anyMember(bodies, group, rank, [&](const Mover& member) {
-      return group.crowd().cameNear(member.place, boxAt(state.pose, *body.body), way);
+      return group.crowd().cameNear(member.place, *body.body, state.pose, way);
     });
   });
   return near;

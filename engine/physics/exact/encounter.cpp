@@ -32,8 +32,8 @@ void reach(Bodies& bodies, const Event& event, Encounter& encounter) {
     for (const int candidate : bodies.around(body.rank)) {
       const Mover& other = bodies[candidate];
       if (!takesPart(encounter, candidate) &&
-          areTouching(encounter.bodies[reached].box(), boxAt(other.stateAt(encounter.time).pose, *other.body),
-                      nearness(bodies, encounter))) {
+          areTouching(*body.body, encounter.bodies[reached].before.pose, *other.body,
+                      other.stateAt(encounter.time).pose, nearness(bodies, encounter))) {
         join(bodies, encounter, candidate);
       }
     }
@@ -89,7 +89,7 @@ TouchingBody EncounterBody::touching(const Instant& time) const {
           .worldFromBody = attitude,
           .velocity = after.velocity,
           .angularVelocityBody = mover->isHeld() ? spun : body().mass.inverseInertiaTimes(spun),
-          .part = mover->isDriven() ? mover->part : nullptr,
+          .drivenBy = mover->isDriven() ? mover->drivenBy : nullptr,
           .time = time.hi};
 }
 
@@ -161,6 +161,10 @@ Encounter gather(Bodies& bodies, const Event& event) {
   }
   findJoints(bodies.world(), encounter);
   return encounter;
+}
+
+bool areTouching(const EncounterBody& a, const EncounterBody& b, double apart) {
+  return areTouching(a.body(), a.before.pose, b.body(), b.before.pose, apart);
 }
 
 void join(Bodies& bodies, Encounter& encounter, int rank) {

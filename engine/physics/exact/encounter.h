@@ -34,6 +34,7 @@ struct EncounterBody {
   const Body& body() const { return *mover->body; }
   int listed() const { return mover->listed.value; }
   BoxAt box() const { return boxAt(before.pose, body()); }
+  BoxAt box(int index) const { return boxAt(before.pose, body(), index); }
   /// As it is after the encounter, at that time.
   TouchingBody touching(const Instant& time) const;
 };
@@ -75,6 +76,8 @@ inline constexpr double kHardlyParts = 0x1p20;
 /// Who touches whom at an event: an impact propagates to every body that touches one it reaches, except
 /// through immovable bodies. Ends the steps of their groups at that moment.
 Encounter gather(Bodies& bodies, const Event& event);
+/// Whether two of its bodies do, up to a gap of `apart` [m].
+bool areTouching(const EncounterBody& a, const EncounterBody& b, double apart = 0);
 /// Adds a box, once, with the members of its group and those that springs join to it.
 void join(Bodies& bodies, Encounter& encounter, int rank);
 

@@ -33,20 +33,16 @@ double slowOf(double tolerance, double pull, const EncounterBody& a, const Encou
   return std::max(kApproachRounding * speeds, found);
 }
 
-// Adds the contacts of two bodies that touch.
-void addPairContacts(const World& world, double tolerance, Encounter& encounter, std::size_t indexA,
-                     std::size_t indexB) {
+// Adds the contacts of two boxes that touch.
+void addBoxContacts(double tolerance, Encounter& encounter, std::size_t indexA, const BoxAt& boxA,
+                    std::size_t indexB, const BoxAt& boxB) {
   const EncounterBody& a = encounter.bodies[indexA];
   const EncounterBody& b = encounter.bodies[indexB];
-  if ((a.mover->isHeld() && b.mover->isHeld()) || !mayTouch(world, a.listed(), b.listed()) ||
-      !areTouching(a.box(), b.box())) {
-    return;
-  }
   const auto velocityOf = [](const EncounterBody& body, const Vec3& arm) {
     return Vec3(body.before.velocity + angularVelocity(body.body().mass, body.before).cross(arm));
   };
   const ChosenContact contact = chosenContact(
-      a.box(), b.box(), 0, knownTo(tolerance, a, b), slowOf(tolerance, encounter.pull, a, b),
+      boxA, boxB, 0, knownTo(tolerance, a, b), slowOf(tolerance, encounter.pull, a, b),
       [&](const Vec3& armA, const Vec3& armB) { return Vec3(velocityOf(a, armA) - velocityOf(b, armB)); });
   for (const ContactPoint& at : contact.points) {
     encounter.contacts.push_back({.a = static_cast<int>(indexA),
@@ -55,10 +51,27 @@ void addPairContacts(const World& world, double tolerance, Encounter& encounter,
                                   .armB = at.armB,
                                   .normal = at.normal,
                                   .material = touching(a.body().material, b.body().material),
+                                  .boxA = boxA.part,
+                                  .boxB = boxB.part,
                                   .inCone = at.inCone,
                                   .axes = contact.choice,
-                                  .directions = directionsOf(contact.choice, a.box(), b.box())});
+                                  .directions = directionsOf(contact.choice, boxA, boxB)});
   }
+}
+
+// Adds the contacts of two bodies that touch.
+void addPairContacts(const World& world, double tolerance, Encounter& encounter, std::size_t indexA,
+                     std::size_t indexB) {
+  const EncounterBody& a = encounter.bodies[indexA];
+  const EncounterBody& b = encounter.bodies[indexB];
+  if ((a.mover->isHeld() && b.mover->isHeld()) || !mayTouch(world, a.listed(), b.listed())) {
+    return;
+  }
+  forBoxes(a.body(), a.before.pose, b.body(), b.before.pose, [&](const BoxAt& boxA, const BoxAt& boxB) {
+    if (areTouching(boxA, boxB)) {
+      addBoxContacts(tolerance, encounter, indexA, boxA, indexB, boxB);
+    }
+  });
 }
 
 }  // namespace
@@ -70,7 +83,8 @@ std::vector<ImpactContact> closedJoints(const Encounter& encounter) {
     const EncounterBody& first = encounter.bodies[static_cast<std::size_t>(joint.a)];
     const TouchingBody a = first.touching(encounter.time);
     const TouchingBody b = encounter.bodies[static_cast<std::size_t>(joint.b)].touching(encounter.time);
-    const ContactState state = contactState(joint, a.kinematics(), a.shape(), b.kinematics(), b.shape());
+    const ContactState state =
+        contactState(joint, a.kinematics(), a.shape(joint.boxA), b.kinematics(), b.shape(joint.boxB));
     if (joint.grips()) {
       continue;  // no impulse in no time
     }
@@ -109,13 +123,15 @@ void choose(const Bodies& bodies, Encounter& encounter, std::size_t k, const Vec
   }
   const EncounterBody& a = encounter.a(k);
   const EncounterBody& b = encounter.b(k);
-  const AxisSet open = withoutApproached(contact.axes, a.box(), b.box(), velocity,
-                                         slowOf(bodies.tolerance(), encounter.pull, a, b));
+  const BoxAt boxA = a.box(contact.boxA);
+  const BoxAt boxB = b.box(contact.boxB);
+  const AxisSet open =
+      withoutApproached(contact.axes, boxA, boxB, velocity, slowOf(bodies.tolerance(), encounter.pull, a, b));
   if (open == contact.axes) {
     return;
   }
   constexpr double kSame = 1 - 0x1p-40;
-  if (contact.inCone || dot(directionsOf(open, a.box(), b.box()).front(), contact.normal) < kSame) {
+  if (contact.inCone || dot(directionsOf(open, boxA, boxB).front(), contact.normal) < kSame) {
     encounter.persists[k] = 0;
   }
   contact.axes = 0;

@@ -57,18 +57,35 @@ void addCorners(const Encounter& encounter, Features& features) {
   }
 }
 
-double gapOf(const Encounter& encounter, std::size_t a, std::size_t b) {
-  return BoxAxes(encounter.bodies[a].box(), encounter.bodies[b].box()).gap();
+// Adds the contact manifolds of all boxes of two bodies for which isMeeting(boxA, boxB, gap).
+template <class IsMeeting>
+void addMeetings(const Encounter& encounter, std::size_t a, std::size_t b, Features& features,
+                 const IsMeeting& isMeeting) {
+  const EncounterBody& bodyA = encounter.bodies[a];
+  const EncounterBody& bodyB = encounter.bodies[b];
+  forBoxes(
+      bodyA.body(), bodyA.before.pose, bodyB.body(), bodyB.before.pose,
+      [&](const BoxAt& boxA, const BoxAt& boxB) {
+        const double apart = BoxAxes(boxA, boxB).gap();
+        if (isMeeting(boxA, boxB, apart)) {
+          for (const ContactPoint& at : boxContactPoints(boxA, boxB)) {
+            features.push_back(featureAt(at, apart, static_cast<int>(a), boxA, static_cast<int>(b), boxB));
+          }
+        }
+      });
 }
 
-// Adds the contact manifold of two boxes that are near each other.
-void addMeeting(const Encounter& encounter, std::size_t a, std::size_t b, Features& features) {
-  const BoxAt boxA = encounter.bodies[a].box();
-  const BoxAt boxB = encounter.bodies[b].box();
-  const double apart = gapOf(encounter, a, b);
-  for (const ContactPoint& at : boxContactPoints(boxA, boxB)) {
-    features.push_back(featureAt(at, apart, static_cast<int>(a), boxA, static_cast<int>(b), boxB));
-  }
+// Adds those of the two bodies of an event, but for boxes to which the group of the first sees.
+void addEvent(const Bodies& bodies, const Event& event, const Encounter& encounter, Features& features) {
+  const Mover& body = bodies[event.body];
+  const Mover& other = bodies[event.partner];
+  const bool isOneMeeting = body.body->partCount() == 1 && other.body->partCount() == 1;
+  addMeetings(
+      encounter, encounter.indexOf(event.body), encounter.indexOf(event.partner), features,
+      [&](const BoxAt& boxA, const BoxAt& boxB, double gap) {
+        return !(body.steps() && body.group->seesTo(body.place, boxA.part, {event.partner, boxB.part})) &&
+               (isOneMeeting || gap <= kAligned * touchingWithin(boxA, boxB));
+      });
 }
 
 // Adds contacts of bodies that penetrate after a time step.
@@ -80,9 +97,10 @@ void addOverlaps(const World& world, const Encounter& encounter, Features& featu
       const EncounterBody& b = boxes[j];
       if ((!a.mover->isHeld() || !b.mover->isHeld()) && mayTouch(world, a.listed(), b.listed()) &&
           (a.before.pose.position - b.before.pose.position).norm() <=
-              radiusOf(a.body()) + radiusOf(b.body()) &&
-          gapOf(encounter, i, j) < -kAligned * touchingWithin(a.box(), b.box())) {
-        addMeeting(encounter, i, j, features);
+              radiusOf(a.body()) + radiusOf(b.body())) {
+        addMeetings(encounter, i, j, features, [](const BoxAt& boxA, const BoxAt& boxB, double gap) {
+          return gap < -kAligned * touchingWithin(boxA, boxB);
+        });
       }
     }
   }
@@ -99,10 +117,8 @@ void alignPlaces(const Bodies& bodies, const Event& event, Encounter& encounter)
   addKnown(encounter, features);
   addJoints(encounter, features);
   addCorners(encounter, features);
-  const Mover& body = bodies[event.body];
-  if (event.partner != Event::kNobody && bodies[event.partner].isBox() &&
-      !(body.steps() && body.group->seesTo(body.place, event.partner))) {
-    addMeeting(encounter, encounter.indexOf(event.body), encounter.indexOf(event.partner), features);
+  if (event.partner != Event::kNobody && bodies[event.partner].isBox()) {
+    addEvent(bodies, event, encounter, features);
   }
   constexpr int kMostPasses = 8;
   double mayMove = ContactSystem::kMostMoved * bodies.tolerance();

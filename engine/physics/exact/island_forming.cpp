@@ -50,8 +50,8 @@ ContactFeature featureOf(const Encounter& encounter, std::size_t k) {
   if (!encounter.b(k).mover->isBox()) {
     feature = {.a = contact.a, .b = contact.b, .onA = corner(a.body(), contact.corner)};
   } else {
-    const BoxAt boxA = boxAt(a.after.pose, a.body());
-    const BoxAt boxB = boxAt(encounter.b(k).after.pose, encounter.b(k).body());
+    const BoxAt boxA = boxAt(a.after.pose, a.body(), contact.boxA);
+    const BoxAt boxB = boxAt(encounter.b(k).after.pose, encounter.b(k).body(), contact.boxB);
     feature = featureAt({contact.armA, contact.armB, contact.normal, contact.inCone},
                         gapAlong(boxA, boxB, contact.normal), contact.a, boxA, contact.b, boxB);
     feature.axes = feature.a == contact.a ? contact.axes : swapped(contact.axes);
@@ -225,7 +225,7 @@ void formIslands(Bodies& bodies, Encounter& encounter) {
     for (std::size_t j = i + 1; encounter.timeSteps > 0 && j < count; ++j) {
       if (takesPart(i) && takesPart(j) &&
           mayTouch(bodies.world(), encounter.bodies[i].listed(), encounter.bodies[j].listed()) &&
-          areTouching(encounter.bodies[i].box(), encounter.bodies[j].box(), nearness(bodies, encounter))) {
+          areTouching(encounter.bodies[i], encounter.bodies[j], nearness(bodies, encounter))) {
         joined.join(i, j);
       }
     }

@@ -135,10 +135,10 @@ void IslandGroup::addFeatures(const Encounter& encounter, std::vector<ContactFea
   }
 }
 
-bool IslandGroup::seesTo(std::size_t place, int rank) const {
-  const auto other = std::find(ranks_.begin(), ranks_.end(), rank);
-  return other != ranks_.end() &&
-         island_->handlesPair(place, static_cast<std::size_t>(other - ranks_.begin()));
+bool IslandGroup::seesTo(std::size_t place, int box, const BoxOf& other) const {
+  const auto found = std::find(ranks_.begin(), ranks_.end(), other.body);
+  return found != ranks_.end() && island_->handles({static_cast<int>(place), box},
+                                                   {static_cast<int>(found - ranks_.begin()), other.box});
 }
 
 void IslandGroup::endRun(const Instant& time) {

@@ -23,7 +23,7 @@ class IslandGroup final : public ContactGroup {
   std::optional<Encounter> advance(const Instant& time) override;
   bool enter(Encounter& encounter, int rank) override;
   void addFeatures(const Encounter& encounter, std::vector<ContactFeature>& features) const override;
-  bool seesTo(std::size_t place, int rank) const override;
+  bool seesTo(std::size_t place, int box, const BoxOf& other) const override;
   bool isPredicted() const override { return true; }
   void endRun(const Instant& time) override;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "physics/contact/contact_feature.h"
 #include "physics/geometry/separation.h"
 
 namespace careen {
@@ -35,7 +36,7 @@ void Mover::step(std::shared_ptr<ContactGroup> with, std::size_t as) {
 void Mover::drive(const CoursePart& by) {
   rest({});
   kind = Kind::kDriven;
-  part = &by;
+  drivenBy = &by;
   bounds = boundsOf(by.motion);
 }
 
@@ -52,7 +53,7 @@ void Mover::rest(const Pose& at) {
 
 Vec3 Mover::positionAt(const Instant& time) const {
   if (isDriven()) {
-    return part->motion.at(elapsed(time)).pose.position;
+    return drivenBy->motion.at(elapsed(time)).pose.position;
   }
   return steps() ? careen::positionAt(group->motion(place), elapsed(time)) : flight.positionAt(elapsed(time));
 }
@@ -62,7 +63,7 @@ Quat Mover::attitudeAt(const Instant& time) const {
     return Quat(careen::stateAt(group->motion(place), body->mass, elapsed(time)).pose.worldFromBody);
   }
   if (isDriven()) {
-    return Quat(part->motion.at(elapsed(time)).pose.worldFromBody);
+    return Quat(drivenBy->motion.at(elapsed(time)).pose.worldFromBody);
   }
   return rotation ? body->mass.worldFromBody(rotation->worldFromBody(elapsed(time))) : flight.worldFromBody;
 }
@@ -72,7 +73,7 @@ BodyState Mover::stateAt(const Instant& time, const Quat& attitude) const {
     return careen::stateAt(group->motion(place), body->mass, elapsed(time));
   }
   if (isDriven()) {
-    return stateOf(part->motion.at(elapsed(time)));
+    return stateOf(drivenBy->motion.at(elapsed(time)));
   }
   if (!flies()) {
     return {.pose = pose};
@@ -89,7 +90,7 @@ Attitude Mover::operator()(double elapsed) const {
     return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(body->mass, state)};
   }
   if (isDriven()) {
-    const Kinematics now = part->motion.at(elapsed);
+    const Kinematics now = drivenBy->motion.at(elapsed);
     return {.worldFromBody = now.pose.worldFromBody, .angularVelocity = now.angularVelocity};
   }
   if (!rotation) {
@@ -100,9 +101,11 @@ Attitude Mover::operator()(double elapsed) const {
           .angularVelocity = rotation->angularVelocityWorld(principal)};
 }
 
-MovingBox Mover::moving(const Instant& clockZero) const {
-  return {.halfExtents = body->halfExtents,
-          .center = body->boxCenter,
+MovingBox Mover::moving(const Instant& clockZero, int box) const {
+  const TouchingShape shape = shapeOf(*body, box);
+  return {.halfExtents = shape.halfExtents,
+          .center = shape.center,
+          .bodyFromBox = shape.bodyFromBox,
           .position = flight.position,
           .velocity = flight.velocity,
           .acceleration = flight.acceleration,
@@ -113,13 +116,20 @@ MovingBox Mover::moving(const Instant& clockZero) const {
           .step = steps() ? &group->motion(place) : nullptr,
           .speedBound = bounds.speed,
           .accelerationBound = bounds.acceleration,
-          .driven = isDriven() ? &part->motion : nullptr};
+          .driven = isDriven() ? &drivenBy->motion : nullptr};
 }
 
-bool areTouching(BoxAt a, BoxAt b, double apart) {
+bool areTouching(const BoxAt& a, const BoxAt& b, double apart) {
   const double within = std::max(apart, touchingWithin(a, b));
   const double reach = a.radius() + b.radius() + within;
   return (a.pose.position - b.pose.position).norm() <= reach && BoxAxes(a, b).gap() <= within;
+}
+
+bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double apart) {
+  bool areAny = false;
+  forBoxes(a, poseA, b, poseB,
+           [&](const BoxAt& boxA, const BoxAt& boxB) { areAny = areAny || areTouching(boxA, boxB, apart); });
+  return areAny;
 }
 
 }  // namespace careen

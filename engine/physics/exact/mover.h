@@ -28,7 +28,7 @@ struct Mover {
   BodyIndex listed;  ///< its index in the scene
   Kind kind = Kind::kRests;
   Flight flight;                                    ///< if it flies
-  const CoursePart* part = nullptr;                 ///< if it is driven
+  const CoursePart* drivenBy = nullptr;             ///< if it is driven
   std::shared_ptr<ContactGroup> group;              ///< of which it is a member, perhaps asleep
   std::size_t place = 0;                            ///< its index in that group
   double work = 0;                                  ///< its share of Island::work() so far
@@ -70,11 +70,13 @@ struct Mover {
   BodyState stateAt(const Instant& time) const { return stateAt(time, attitudeAt(time)); }
   /// For the contact search; `elapsed` [s] counts from the start of the motion.
   Attitude operator()(double elapsed) const;
-  /// The same, with time 0 of the search at `clockZero`.
-  MovingBox moving(const Instant& clockZero) const;
+  /// One of its boxes, with time 0 of the search at `clockZero`.
+  MovingBox moving(const Instant& clockZero, int box) const;
 };
 
 /// Whether the gap of two boxes is within the contact-group tolerance, or within `apart` [m] if that is more.
-bool areTouching(BoxAt a, BoxAt b, double apart = 0);
+bool areTouching(const BoxAt& a, const BoxAt& b, double apart = 0);
+/// Whether that of any two boxes of two bodies is.
+bool areTouching(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB, double apart = 0);
 
 }  // namespace careen

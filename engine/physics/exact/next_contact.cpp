@@ -47,8 +47,13 @@ bool moveAsOne(const Mover& a, const Mover& b) {
 
 }  // namespace
 
-std::optional<Event> firstWall(const Mover& body, std::span<const Mover> walls, const Instant& end) {
-  const MovingBox box = body.moving(body.start);
+namespace {
+
+// Of one of its boxes with any wall, if it is before `until` [s] of the body's motion, which then is its
+// time.
+void meetWalls(const Mover& body, int index, std::span<const Mover> walls, double& until,
+               std::optional<Event>& first) {
+  const MovingBox box = body.moving(body.start, index);
   // The wall likely to be hit first, so that the others need not be searched beyond that time.
   std::size_t likely = 0;
   double soonest = kNever;
@@ -59,8 +64,6 @@ std::optional<Event> firstWall(const Mover& body, std::span<const Mover> walls, 
       likely = w;
     }
   }
-  std::optional<Event> first;
-  double until = body.elapsed(end);
   const auto meet = [&](std::size_t w) {
     const Wall& wall = *walls[w].halfSpace;
     const FirstContact contact = body.bounds.angularSpeed == 0
@@ -79,6 +82,16 @@ std::optional<Event> firstWall(const Mover& body, std::span<const Mover> walls, 
   for (std::size_t k = 0; k < walls.size(); ++k) {
     meet((likely + k) % walls.size());
   }
+}
+
+}  // namespace
+
+std::optional<Event> firstWall(const Mover& body, std::span<const Mover> walls, const Instant& end) {
+  std::optional<Event> first;
+  double until = body.elapsed(end);
+  for (int i = 0; i < body.body->partCount(); ++i) {
+    meetWalls(body, i, walls, until, first);
+  }
   return first;
 }
 
@@ -90,21 +103,30 @@ std::optional<Event> firstMeeting(const Mover& body, const Mover& other, const I
       last = each->group->end();
     }
   }
-  const double end = secondsBetween(zero, last);
+  double end = secondsBetween(zero, last);
   if (!(end >= 0) || moveAsOne(body, other)) {
     return std::nullopt;
   }
-  const FirstContact contact = searchUntil(end, [&](const SearchWindow& window) {
-    return firstContactOfBoxes(body.moving(zero), other.moving(zero), window);
-  });
-  if (contact.kind == ContactKind::kNone) {
-    return std::nullopt;
+  std::optional<Event> first;
+  for (int i = 0; i < body.body->partCount(); ++i) {
+    for (int j = 0; j < other.body->partCount(); ++j) {
+      if (body.steps() && body.group->seesTo(body.place, i, {other.rank, j})) {
+        continue;
+      }
+      const FirstContact contact = searchUntil(end, [&](const SearchWindow& window) {
+        return firstContactOfBoxes(body.moving(zero, i), other.moving(zero, j), window);
+      });
+      if (contact.kind != ContactKind::kNone && (!first || contact.time < end)) {
+        end = contact.time;
+        first = {.time = instantAfter(zero, contact.time),
+                 .kind = kindOf(contact),
+                 .body = body.rank,
+                 .partner = other.rank,
+                 .partnerMotion = other.motion};
+      }
+    }
   }
-  return Event{.time = instantAfter(zero, contact.time),
-               .kind = kindOf(contact),
-               .body = body.rank,
-               .partner = other.rank,
-               .partnerMotion = other.motion};
+  return first;
 }
 
 }  // namespace careen

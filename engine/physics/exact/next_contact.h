@@ -12,7 +12,7 @@ namespace careen {
 std::optional<Event> firstWall(const Mover& body, std::span<const Mover> walls, const Instant& end);
 
 /// The first contact of two bodies, the first of which moves, from the later of the starts of their motions
-/// up to `until`.
+/// up to `until`, but for boxes to which its group sees.
 std::optional<Event> firstMeeting(const Mover& body, const Mover& other, const Instant& until);
 
 }  // namespace careen

@@ -15,7 +15,7 @@ struct ChosenContact {
 /// are approached faster than `slow` [m/s] they are not kept apart: if that leaves one direction, it is the
 /// normal, should the contact have to take part. `velocityAt(armA, armB)` [m/s]: of a relative to b.
 template <class VelocityAt>
-ChosenContact chosenContact(BoxAt a, BoxAt b, double apart, double within, double slow,
+ChosenContact chosenContact(const BoxAt& a, const BoxAt& b, double apart, double within, double slow,
                             const VelocityAt& velocityAt) {
   ChosenContact contact{.points = boxContactPoints(a, b, apart), .choice = separatingAxes(a, b, within)};
   if (contact.choice == 0 || contact.points.size() == 0) {

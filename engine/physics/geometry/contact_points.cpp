@@ -41,7 +41,7 @@ void cross(const SupportFeature& a, const SupportFeature& b, const Vec3& bToA, d
 
 // The contact axis: a face axis if its separation is as good as equals the best. Where that is of two edges,
 // the other box's nearest part may lie beside the face: then they do not touch there.
-BoxAxis contactAxis(BoxAt a, BoxAt b, const BoxAxes& axes, const Vec3& bToA, double within) {
+BoxAxis contactAxis(const BoxAt& a, const BoxAt& b, const BoxAxes& axes, const Vec3& bToA, double within) {
   if (axes.best().kind() != BoxAxis::Kind::kEdges) {
     return axes.best();
   }
@@ -72,7 +72,7 @@ BoxAxis bestAmong(const BoxAxes& axes, AxisSet among) {
   return {best};
 }
 
-ContactPoints pointsInOrder(BoxAt a, BoxAt b, double apart, AxisSet among) {
+ContactPoints pointsInOrder(const BoxAt& a, const BoxAt& b, double apart, AxisSet among) {
   const double within = std::max(apart, touchingWithin(a, b));
   const Vec3 bToA = a.middle() - b.middle();
   const BoxAxes axes(a, b);
@@ -118,7 +118,7 @@ ContactPoint swapped(const ContactPoint& point) {
   return {.armA = point.armB, .armB = point.armA, .normal = -point.normal, .inCone = point.inCone};
 }
 
-ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart, AxisSet among) {
+ContactPoints boxContactPoints(const BoxAt& a, const BoxAt& b, double apart, AxisSet among) {
   const bool swaps = comesFirst(b, a);
   const bool centered = a.isCentered() && b.isCentered();
   const ContactPoints found =

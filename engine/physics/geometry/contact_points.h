@@ -56,6 +56,6 @@ class ContactPoints {
 ///
 /// Points with a gap up to `apart` [m], if more than kSimultaneous, also count as contact. If not all axes
 /// are given, the normal is that of one of them, of a face if there is one.
-ContactPoints boxContactPoints(BoxAt a, BoxAt b, double apart = 0, AxisSet among = kAllAxes);
+ContactPoints boxContactPoints(const BoxAt& a, const BoxAt& b, double apart = 0, AxisSet among = kAllAxes);
 
 }  // namespace careen

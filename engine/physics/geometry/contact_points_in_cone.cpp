@@ -42,8 +42,8 @@ std::optional<Vec3> insideOfCone(const BoxAxes& axes, AxisSet set) {
 Vec3 boundOf(const Vec3& axis, const Vec3& inside) { return dot(axis, inside) < 0 ? Vec3(-axis) : axis; }
 
 // The cone of an edge or a corner of each box; `edge` is null for two corners.
-NormalCone coneOf(BoxAt a, const SupportFeature& ofA, BoxAt b, const SupportFeature& ofB, const Vec3* edge,
-                  const Vec3& inside) {
+NormalCone coneOf(const BoxAt& a, const SupportFeature& ofA, const BoxAt& b, const SupportFeature& ofB,
+                  const Vec3* edge, const Vec3& inside) {
   NormalCone cone;
   const auto add = [&](const Mat3& axes, const SupportFeature& feature) {
     for (int i = 0; i < 3; ++i) {
@@ -107,8 +107,8 @@ Touches touchesOf(const SupportFeature& a, const SupportFeature& b, const Vec3& 
 
 }  // namespace
 
-std::optional<ContactPoints> pointsInCone(BoxAt a, BoxAt b, const BoxAxes& axes, const Vec3& bToA,
-                                          double within) {
+std::optional<ContactPoints> pointsInCone(const BoxAt& a, const BoxAt& b, const BoxAxes& axes,
+                                          const Vec3& bToA, double within) {
   const double touching = touchingWithin(a, b);
   const std::optional<Vec3> inside = insideOfCone(axes, separatingAxes(a, b, axes, touching));
   if (!inside) {

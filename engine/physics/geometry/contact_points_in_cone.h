@@ -13,7 +13,7 @@ namespace careen {
 /// cross: edges along edges, corners on edges, corners on corners. Their normal is the centre of a cone, see
 /// boxContactPoints(). `axes` are those of the boxes, `bToA` [m] the way from b's middle to a's, `within` [m]
 /// the distance of points that are one. None if the boxes touch otherwise.
-std::optional<ContactPoints> pointsInCone(BoxAt a, BoxAt b, const BoxAxes& axes, const Vec3& bToA,
-                                          double within);
+std::optional<ContactPoints> pointsInCone(const BoxAt& a, const BoxAt& b, const BoxAxes& axes,
+                                          const Vec3& bToA, double within);
 
 }  // namespace careen

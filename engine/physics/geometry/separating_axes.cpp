@@ -15,7 +15,7 @@ constexpr double kOneDirection = 0x1p-4;
 
 }  // namespace
 
-AxisSet separatingAxes(BoxAt a, BoxAt b, const BoxAxes& axes, double within) {
+AxisSet separatingAxes(const BoxAt& a, const BoxAt& b, const BoxAxes& axes, double within) {
   const double thinnest = std::min(a.halfExtents.minCoeff(), b.halfExtents.minCoeff());
   const double different =
       std::max(kDifferentDirections * within / thinnest, within > touchingWithin(a, b) ? kAcross : 0);
@@ -32,7 +32,7 @@ AxisSet separatingAxes(BoxAt a, BoxAt b, const BoxAxes& axes, double within) {
   return differ ? set : 0;
 }
 
-AxisSet separatingAxes(BoxAt a, BoxAt b, double within) {
+AxisSet separatingAxes(const BoxAt& a, const BoxAt& b, double within) {
   return separatingAxes(a, b, BoxAxes(a, b), within);
 }
 
@@ -47,7 +47,7 @@ AxisSet swapped(AxisSet set) {
   return other;
 }
 
-AxisSet withoutApproached(AxisSet set, BoxAt a, BoxAt b, const Vec3& velocity, double slow) {
+AxisSet withoutApproached(AxisSet set, const BoxAt& a, const BoxAt& b, const Vec3& velocity, double slow) {
   const BoxAxes axes(a, b);
   AxisSet open = 0;
   Vec3 first = Vec3::Zero();
@@ -65,7 +65,7 @@ AxisSet withoutApproached(AxisSet set, BoxAt a, BoxAt b, const Vec3& velocity, d
   return open != 0 ? open : set;
 }
 
-std::vector<Vec3> directionsOf(AxisSet set, BoxAt a, BoxAt b) {
+std::vector<Vec3> directionsOf(AxisSet set, const BoxAt& a, const BoxAt& b) {
   std::vector<Vec3> directions;
   if (set == 0) {
     return directions;

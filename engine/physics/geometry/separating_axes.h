@@ -25,16 +25,16 @@ AxisSet swapped(AxisSet set);
 /// n: a union of half-spaces, and not the half-space of one mean normal. Such a contact takes part only where
 /// the motion without it would enter along all of them (addEntering): a cube that slides over the joint of
 /// two slabs does not strike the second one's edge, and diagonal neighbours in a wall carry nothing.
-AxisSet separatingAxes(BoxAt a, BoxAt b, double within);
-AxisSet separatingAxes(BoxAt a, BoxAt b, const BoxAxes& axes, double within);
+AxisSet separatingAxes(const BoxAt& a, const BoxAt& b, double within);
+AxisSet separatingAxes(const BoxAt& a, const BoxAt& b, const BoxAxes& axes, double within);
 
 /// [1] Their directions as the boxes are now: unit, from b to a.
-std::vector<Vec3> directionsOf(AxisSet set, BoxAt a, BoxAt b);
+std::vector<Vec3> directionsOf(AxisSet set, const BoxAt& a, const BoxAt& b);
 
 /// Of separatingAxes(), those that are not approached faster than `slow` [m/s] if they are one direction:
 /// that is the normal then, and there is nothing to choose. Else all of them. `velocity` [m/s]: of a relative
 /// to b at the contact.
-AxisSet withoutApproached(AxisSet set, BoxAt a, BoxAt b, const Vec3& velocity, double slow);
+AxisSet withoutApproached(AxisSet set, const BoxAt& a, const BoxAt& b, const Vec3& velocity, double slow);
 
 /// [m/s] How fast boxes part along the best of these directions, given a's velocity relative to b's at the
 /// contact: the rate of their gap.

@@ -34,12 +34,12 @@ double reach(const Vec3& direction, const Mat3& worldFromBox, const Vec3& halfEx
 
 }  // namespace
 
-double touchingWithin(BoxAt box) {
+double touchingWithin(const BoxAt& box) {
   const double radius = box.radius();
   return touchingWithin(radius, box.pose.position.cwiseAbs().sum() + radius);
 }
 
-double touchingWithin(BoxAt a, BoxAt b) {
+double touchingWithin(const BoxAt& a, const BoxAt& b) {
   const double radiusA = a.radius();
   const double radiusB = b.radius();
   return touchingWithin(
@@ -51,17 +51,17 @@ double cornerGap(const Pose& box, const Vec3& corner, const Vec3& normal, double
   return dot(normal, box.position) + dot(normal, box.worldFromBody * corner) - offset;
 }
 
-double gapToPlane(BoxAt box, const Vec3& normal, double offset) {
+double gapToPlane(const BoxAt& box, const Vec3& normal, double offset) {
   return dot(normal, box.middle()) - offset - reach(normal, box.pose.worldFromBody, box.halfExtents);
 }
 
-double gapAlong(BoxAt a, BoxAt b, const Vec3& direction) {
+double gapAlong(const BoxAt& a, const BoxAt& b, const Vec3& direction) {
   return dot(direction, a.middle() - b.middle()) -
          dot((a.pose.worldFromBody.transpose() * direction).cwiseAbs(), a.halfExtents) -
          dot((b.pose.worldFromBody.transpose() * direction).cwiseAbs(), b.halfExtents);
 }
 
-WallGap wallGap(BoxAt box, const Vec3& normal, double offset, double within) {
+WallGap wallGap(const BoxAt& box, const Vec3& normal, double offset, double within) {
   const double height = dot(normal, box.middle()) - offset;
   WallGap result{.gap = gapToPlane(box, normal, offset)};
   const Vec3 upInBody = box.pose.worldFromBody.transpose() * normal;

@@ -30,8 +30,8 @@ inline double touchingWithin(double radius, double lengths) {
 }
 
 /// Likewise for a box and a fixed body, and for two boxes.
-double touchingWithin(BoxAt box);
-double touchingWithin(BoxAt a, BoxAt b);
+double touchingWithin(const BoxAt& box);
+double touchingWithin(const BoxAt& a, const BoxAt& b);
 
 /// [m] Signed gap of one corner, given in the body's frame, to the half-space normal·x > offset.
 double cornerGap(const Pose& box, const Vec3& corner, const Vec3& normal, double offset);
@@ -41,18 +41,18 @@ using CornerSet = unsigned;
 
 /// [m] Signed gap of a box to the half-space normal·x > offset: n·x − offset − Σ hᵢ|n·aᵢ|, where x is the
 /// box's middle and aᵢ are the columns of worldFromBody. Negative: inside the wall.
-double gapToPlane(BoxAt box, const Vec3& normal, double offset);
+double gapToPlane(const BoxAt& box, const Vec3& normal, double offset);
 
 /// The same with the corners that attain it.
 struct WallGap {
   double gap = 0;         ///< [m] of the lowest corner
   CornerSet corners = 0;  ///< corners at most `within` above the lowest
 };
-WallGap wallGap(BoxAt box, const Vec3& normal, double offset, double within);
+WallGap wallGap(const BoxAt& box, const Vec3& normal, double offset, double within);
 
 /// [m] Separation of two boxes along a direction from b to a: of the farthest that b reaches along it to the
 /// nearest that a does. Negative: they overlap along it.
-double gapAlong(BoxAt a, BoxAt b, const Vec3& direction);
+double gapAlong(const BoxAt& a, const BoxAt& b, const Vec3& direction);
 
 /// The 15 separating-axis candidates of two boxes: face normals of each and cross products of their edges
 /// (Gottschalk, Lin, Manocha 1996). The boxes are disjoint exactly when one of them separates.
@@ -75,7 +75,7 @@ struct BoxAxis {
 class BoxAxes {
  public:
   BoxAxes(Mat3 worldFromA, Vec3 halfExtentsA, Mat3 worldFromB, Vec3 halfExtentsB, Vec3 bToA);
-  BoxAxes(BoxAt a, BoxAt b)
+  BoxAxes(const BoxAt& a, const BoxAt& b)
       : BoxAxes(a.pose.worldFromBody, a.halfExtents, b.pose.worldFromBody, b.halfExtents,
                 a.middle() - b.middle()) {}
 

@@ -5,7 +5,7 @@
 
 namespace careen {
 
-SupportFeature furthest(BoxAt box, const Vec3& direction, double within) {
+SupportFeature furthest(const BoxAt& box, const Vec3& direction, double within) {
   const Pose& pose = box.pose;
   const Vec3& halfExtents = box.halfExtents;
   SupportFeature feature{.axis = {Vec3::Zero(), Vec3::Zero()}};

@@ -34,6 +34,6 @@ struct SupportFeature {
 };
 
 /// Of a box along a unit vector; parts within that distance [m] of the furthest belong to it.
-SupportFeature furthest(BoxAt box, const Vec3& direction, double within);
+SupportFeature furthest(const BoxAt& box, const Vec3& direction, double within);
 
 }  // namespace careen

@@ -34,6 +34,8 @@ struct ImpactContact {
   Vec3 armB = Vec3::Zero();     ///< [m] world, from b's; not read if b does not move
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit, from b to a
   Material material = {};       ///< of the pair, see touching()
+  int boxA = 0;                 ///< which of a's boxes touches
+  int boxB = 0;                 ///< one of b's
   int corner = -1;              ///< of a, that touches a wall
   bool inCone = false;          ///< the normal is the centre of a cone, see ContactPoint
   AxisSet axes = 0;             ///< of both boxes, whose are

@@ -5,6 +5,26 @@
 #include "physics/geometry/separation.h"
 
 namespace careen {
+namespace {
+
+// Calls add(corner) for those of a body of several boxes that are as low as its lowest, to `within` [m], if
+// that touches the wall. Returns its gap.
+template <class Add>
+double addCornersAt(const Body& body, const Pose& pose, const Wall& wall, double within, const Add& add) {
+  std::vector<double> gaps;
+  for (const Vec3& corner : body.partCorners) {
+    gaps.push_back(cornerGap(pose, corner, wall.normal, wall.offset));
+  }
+  const double lowest = *std::min_element(gaps.begin(), gaps.end());
+  for (std::size_t k = 0; k < gaps.size() && lowest <= within; ++k) {
+    if (gaps[k] <= lowest + within) {
+      add(static_cast<int>(k));
+    }
+  }
+  return lowest;
+}
+
+}  // namespace
 
 double addWallContacts(const World& world, const Body& body, const Pose& pose, int index, int firstWall,
                        std::vector<ImpactContact>& contacts) {
@@ -12,6 +32,18 @@ double addWallContacts(const World& world, const Body& body, const Pose& pose, i
   double deepest = 0;
   for (std::size_t w = 0; w < world.walls.size(); ++w) {
     const Wall& wall = world.walls[w];
+    const auto add = [&](int k) {
+      contacts.push_back({.a = index,
+                          .b = firstWall + static_cast<int>(w),
+                          .armA = pose.worldFromBody * corner(body, k),
+                          .normal = wall.normal,
+                          .material = touching(body.material, wall.material),
+                          .corner = k});
+    };
+    if (!body.parts.empty()) {
+      deepest = std::max(deepest, -addCornersAt(body, pose, wall, within, add));
+      continue;
+    }
     const WallGap gap = wallGap(boxAt(pose, body), wall.normal, wall.offset, within);
     if (gap.gap > within) {
       continue;
@@ -19,12 +51,7 @@ double addWallContacts(const World& world, const Body& body, const Pose& pose, i
     deepest = std::max(deepest, -gap.gap);
     for (int k = 0; k < kCorners; ++k) {
       if ((gap.corners >> static_cast<unsigned>(k) & 1U) != 0) {
-        contacts.push_back({.a = index,
-                            .b = firstWall + static_cast<int>(w),
-                            .armA = pose.worldFromBody * corner(body, k),
-                            .normal = wall.normal,
-                            .material = touching(body.material, wall.material),
-                            .corner = k});
+        add(k);
       }
     }
   }

@@ -10,11 +10,11 @@ constexpr double kParallelSquared = 0x1p-14;
 
 }  // namespace
 
-bool PileAxes::find(const PileBody& a, const Mat3& axesOfA, const PileBody& b, const Mat3& axesOfB,
-                    const Vec3& apart, double reach, int last, double tie) {
-  cosines.noalias() = axesOfA.transpose() * axesOfB;
-  apartA.noalias() = axesOfA.transpose() * apart;
-  apartB.noalias() = axesOfB.transpose() * apart;
+bool PileAxes::find(const PileBox& a, const PileBox& b, double reach, int last, double tie) {
+  const Vec3 apart = a.middle() - b.middle();
+  cosines.noalias() = a.axes.transpose() * b.axes;
+  apartA.noalias() = a.axes.transpose() * apart;
+  apartB.noalias() = b.axes.transpose() * apart;
   const Vec3& halfA = a.halfExtents;
   const Vec3& halfB = b.halfExtents;
   const Mat3 sizes = cosines.cwiseAbs();
@@ -73,17 +73,16 @@ bool PileAxes::find(const PileBody& a, const Mat3& axesOfA, const PileBody& b, c
   return true;
 }
 
-double separationAlong(int axis, const PileBody& a, const Mat3& axesOfA, const PileBody& b,
-                       const Mat3& axesOfB, const Vec3& apart) {
-  const Vec3 along = axis < 3   ? Vec3(axesOfA.col(axis))
-                     : axis < 6 ? Vec3(axesOfB.col(axis - 3))
-                                : Vec3(axesOfA.col((axis - 6) / 3).cross(axesOfB.col((axis - 6) % 3)));
+double separationAlong(int axis, const PileBox& a, const PileBox& b, const Vec3& apart) {
+  const Vec3 along = axis < 3   ? Vec3(a.axes.col(axis))
+                     : axis < 6 ? Vec3(b.axes.col(axis - 3))
+                                : Vec3(a.axes.col((axis - 6) / 3).cross(b.axes.col((axis - 6) % 3)));
   const auto reachOf = [&](const Vec3& half, const Mat3& axes) {
     return half.x() * std::fabs(dot(along, axes.col(0))) + half.y() * std::fabs(dot(along, axes.col(1))) +
            half.z() * std::fabs(dot(along, axes.col(2)));
   };
   const double separation =
-      std::fabs(dot(along, apart)) - (reachOf(a.halfExtents, axesOfA) + reachOf(b.halfExtents, axesOfB));
+      std::fabs(dot(along, apart)) - (reachOf(a.halfExtents, a.axes) + reachOf(b.halfExtents, b.axes));
   if (axis < 6) {
     return separation;
   }
@@ -91,16 +90,15 @@ double separationAlong(int axis, const PileBody& a, const Mat3& axesOfA, const P
   return squared < kParallelSquared ? std::numeric_limits<double>::lowest() : separation / std::sqrt(squared);
 }
 
-double gapAbove(double least, int first, const PileBody& a, const Mat3& axesOfA, const PileBody& b,
-                const Mat3& axesOfB, const Vec3& apart) {
+double gapAboveOfBoxes(double least, int first, const PileBox& a, const PileBox& b) {
   if (first >= 0) {
-    const double separation = separationAlong(first, a, axesOfA, b, axesOfB, apart);
+    const double separation = separationAlong(first, a, b, a.middle() - b.middle());
     if (separation > least) {
       return separation;
     }
   }
   PileAxes axes;
-  axes.find(a, axesOfA, b, axesOfB, apart, least, -1, 0);
+  axes.find(a, b, least, -1, 0);
   return axes.separation();
 }
 

@@ -23,24 +23,18 @@ struct PileAxes {
 
   /// `last`, if not −1, wins ties within `tie` [m]. Returns false at the first axis that separates by more
   /// than `reach`; `faceSeparation` is then that separation.
-  bool find(const PileBody& a, const PileBody& b, double reach, int last, double tie) {
-    return find(a, a.axes, b, b.axes, a.middle() - b.middle(), reach, last, tie);
-  }
-  /// The same where they are turned otherwise; `apart` [m] is from b's middle to a's.
-  bool find(const PileBody& a, const Mat3& axesOfA, const PileBody& b, const Mat3& axesOfB, const Vec3& apart,
-            double reach, int last, double tie);
+  bool find(const PileBox& a, const PileBox& b, double reach, int last, double tie);
 
   /// [m] The best, after find(); if that returned false, of a few of them.
   double separation() const { return std::max(faceSeparation, edgeSeparation); }
 };
 
-/// [m] Along one of the 15 axes, as in BoxAxis; of edges that are parallel, the lowest double.
-double separationAlong(int axis, const PileBody& a, const Mat3& axesOfA, const PileBody& b,
-                       const Mat3& axesOfB, const Vec3& apart);
+/// [m] Along one of the 15 axes, as in BoxAxis; of edges that are parallel, the lowest double. `apart` [m]:
+/// from b's middle to a's.
+double separationAlong(int axis, const PileBox& a, const PileBox& b, const Vec3& apart);
 
 /// [m] The gap of two boxes or, where one of the 15 axes shows that it is above `least`, a lower bound of it
 /// that is, too. `first`, if not −1, is tried first: that costs little where the boxes touch along it.
-double gapAbove(double least, int first, const PileBody& a, const Mat3& axesOfA, const PileBody& b,
-                const Mat3& axesOfB, const Vec3& apart);
+double gapAboveOfBoxes(double least, int first, const PileBox& a, const PileBox& b);
 
 }  // namespace careen

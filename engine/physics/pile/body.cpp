@@ -33,21 +33,23 @@ void setAttitude(PileBody& body, const Quat& attitude) {
 }
 
 PileBody pileBody(const Body& body, const BodyState& state) {
-  PileBody result{.halfExtents = body.halfExtents,
-                  .center = body.boxCenter.isZero(0) ? nullptr : &body.boxCenter,
-                  .radius = radiusOf(body),
-                  .length = 2 * body.halfExtents.minCoeff(),
-                  .inverseMass = body.mass.inverseMass,
-                  .inertiaBody = body.mass.inertiaBody,
-                  .inverseInertiaBody = body.mass.inverseInertiaBody,
-                  .bodyFromPrincipal = body.mass.turned ? &body.mass.bodyFromPrincipal : nullptr,
-                  .material = body.material,
-                  .position = state.pose.position,
-                  .attitude = Quat(state.pose.worldFromBody).normalized(),
-                  .axes = state.pose.worldFromBody,
-                  .velocity = state.velocity,
-                  .angularMomentum = state.angularMomentum,
-                  .part = isImmovable(body.mass) ? &kStillPart : nullptr};
+  PileBody result;
+  result.halfExtents = body.halfExtents;
+  result.center = body.boxCenter.isZero(0) ? nullptr : &body.boxCenter;
+  result.parts = body.parts.empty() ? nullptr : &body.parts;
+  result.radius = radiusOf(body);
+  result.length = 2 * body.thinnest();
+  result.inverseMass = body.mass.inverseMass;
+  result.inertiaBody = body.mass.inertiaBody;
+  result.inverseInertiaBody = body.mass.inverseInertiaBody;
+  result.bodyFromPrincipal = body.mass.turned ? &body.mass.bodyFromPrincipal : nullptr;
+  result.material = body.material;
+  result.position = state.pose.position;
+  result.attitude = Quat(state.pose.worldFromBody).normalized();
+  result.axes = state.pose.worldFromBody;
+  result.velocity = state.velocity;
+  result.angularMomentum = state.angularMomentum;
+  result.drivenBy = isImmovable(body.mass) ? &kStillPart : nullptr;
   if (result.held()) {
     result.velocity = Vec3::Zero();
     result.angularMomentum = Vec3::Zero();
@@ -57,18 +59,37 @@ PileBody pileBody(const Body& body, const BodyState& state) {
 }
 
 void putDriven(PileBody& body, double time) {
-  const Kinematics now = body.part->at(time);
+  const Kinematics now = body.drivenBy->at(time);
   body.position = now.pose.position;
   body.attitude = unit<double>(Quat(now.pose.worldFromBody));
   body.axes = body.attitude.toRotationMatrix();
 }
 
 PileBody pileBody(const Wall& wall) {
-  return {.halfSpace = &wall,
-          .length = std::numeric_limits<double>::infinity(),
-          .material = wall.material,
-          .part = &kStillPart};
+  PileBody result;
+  result.halfSpace = &wall;
+  result.length = std::numeric_limits<double>::infinity();
+  result.material = wall.material;
+  result.drivenBy = &kStillPart;
+  return result;
 }
+
+PileBox boxOf(const PileBody& body, int box, const Pose& pose) {
+  PileBox result{.halfSpace = body.halfSpace,
+                 .halfExtents = body.halfExtents,
+                 .center = body.center,
+                 .position = pose.position,
+                 .axes = pose.worldFromBody};
+  if (body.parts != nullptr) {
+    const BodyPart& part = (*body.parts)[static_cast<std::size_t>(box)];
+    result.halfExtents = part.halfExtents;
+    result.center = part.center.isZero(0) ? nullptr : &part.center;
+    result.axes = part.ownAxes(pose.worldFromBody);
+  }
+  return result;
+}
+
+PileBox boxOf(const PileBody& body, int box) { return boxOf(body, box, {body.position, body.axes}); }
 
 BodyState stateOf(const PileBody& body) {
   return {.pose = {.position = body.position, .worldFromBody = body.axes},

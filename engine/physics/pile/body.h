@@ -10,24 +10,34 @@ namespace careen {
 
 /// Of what is held and does not move.
 extern const CoursePart kStillPart;
+/// A box of a body of a pile, or a half-space, where it is.
+struct PileBox {
+  const Wall* halfSpace = nullptr;  ///< its shape; null: a box, of these half sizes
+  Vec3 halfExtents = Vec3::Zero();  ///< [m]
+  const Vec3* center = nullptr;     ///< [m] middle of the box, own frame; null: the centre of mass
+  Vec3 position = Vec3::Zero();     ///< [m] of the centre of mass
+  Mat3 axes = Mat3::Identity();     ///< of the box, in the world
+
+  bool isBox() const { return halfSpace == nullptr; }
+  /// [m] World: from the centre of mass to the middle of the box, and the middle's place.
+  Vec3 boxArm() const { return center == nullptr ? Vec3(Vec3::Zero()) : Vec3(axes * *center); }
+  Vec3 middle() const { return center == nullptr ? position : Vec3(position + axes * *center); }
+};
 
 /// A body of a pile, a box or a half-space: the parts of Body and BodyState that the inner loops read, and
-/// its motion between contacts.
-struct PileBody {
-  const Wall* halfSpace = nullptr;          ///< its shape; null: a box, of these half sizes
-  Vec3 halfExtents = Vec3::Zero();          ///< [m]
-  const Vec3* center = nullptr;             ///< [m] middle of the box, body frame; null: the centre of mass
-  double radius = 0;                        ///< [m] bounding sphere about the centre of mass
-  double length = 0;                        ///< [m] smallest size: tolerances are relative to it
-  double inverseMass = 0;                   ///< [1/kg] 0: fixed body
-  Vec3 inertiaBody = Vec3::Zero();          ///< [kg m²]
-  Vec3 inverseInertiaBody = Vec3::Zero();   ///< [1/(kg m²)]
-  const Mat3* bodyFromPrincipal = nullptr;  ///< null: the principal axes are the body's
+/// its motion between contacts. Of several boxes it is, as a box, that around all of them; its axes are the
+/// body's.
+struct PileBody : PileBox {
+  const std::vector<BodyPart>* parts = nullptr;  ///< null: one box
+  double radius = 0;                             ///< [m] bounding sphere about the centre of mass
+  double length = 0;                             ///< [m] smallest size: tolerances are relative to it
+  double inverseMass = 0;                        ///< [1/kg] 0: fixed body
+  Vec3 inertiaBody = Vec3::Zero();               ///< [kg m²]
+  Vec3 inverseInertiaBody = Vec3::Zero();        ///< [1/(kg m²)]
+  const Mat3* bodyFromPrincipal = nullptr;       ///< null: the principal axes are the body's
   Material material;
 
-  Vec3 position = Vec3::Zero();         ///< [m]
   Quat attitude = Quat::Identity();     ///< worldFromBody
-  Mat3 axes = Mat3::Identity();         ///< worldFromBody
   Vec3 velocity = Vec3::Zero();         ///< [m/s]
   Vec3 angularMomentum = Vec3::Zero();  ///< [kg m²/s] primary state: ω is derived from it
   Vec3 omega = Vec3::Zero();            ///< [rad/s]
@@ -40,27 +50,31 @@ struct PileBody {
   int cluster = -1;    ///< if asleep: its cluster; all bodies of a cluster wake together
   /// Of what is held: how it moves, or kStillPart. Of what is driven the velocities are the means of the
   /// step.
-  const CoursePart* part = nullptr;
+  const CoursePart* drivenBy = nullptr;
   bool asleep = false;
   bool absent = false;  ///< a place that was left
 
-  bool isBox() const { return halfSpace == nullptr; }
-  bool held() const { return part != nullptr; }
-  bool isDriven() const { return held() && part != &kStillPart; }
+  int partCount() const { return parts == nullptr ? 1 : static_cast<int>(parts->size()); }
+  bool held() const { return drivenBy != nullptr; }
+  bool isDriven() const { return held() && drivenBy != &kStillPart; }
   /// No force moves it in this step; and it is not driven either.
   bool still() const { return held() || asleep || absent; }
   bool stays() const { return still() && !isDriven(); }
 
-  /// [m] World: from the centre of mass to the middle of the box, and the middle's place.
-  Vec3 boxArm() const { return center == nullptr ? Vec3(Vec3::Zero()) : Vec3(axes * *center); }
-  Vec3 middle() const { return center == nullptr ? position : Vec3(position + axes * *center); }
-  /// [m] World: the middle of the box where the body is at that pose.
-  Vec3 middleAt(const Pose& pose) const {
-    return center == nullptr ? pose.position : pose.worldPoint(*center);
-  }
   /// The principal axes, along which the inertia is diagonal, in the world.
   Mat3 principalAxes() const { return bodyFromPrincipal == nullptr ? axes : Mat3(axes * *bodyFromPrincipal); }
 };
+
+/// One box of a body where that is, or at that pose; of a half-space that.
+PileBox boxOf(const PileBody& body, int box);
+PileBox boxOf(const PileBody& body, int box, const Pose& pose);
+/// use(boxA, boxB) of one box of each of two bodies.
+template <class Use>
+auto withBoxes(const PileBody& a, int boxA, const PileBody& b, int boxB, const Use& use) {
+  return a.parts == nullptr && b.parts == nullptr
+             ? use(static_cast<const PileBox&>(a), static_cast<const PileBox&>(b))
+             : use(boxOf(a, boxA), boxOf(b, boxB));
+}
 
 /// `body`, or `wall`, must outlive it. A wall is held, and larger than any box.
 PileBody pileBody(const Body& body, const BodyState& state);

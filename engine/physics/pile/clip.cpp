@@ -37,7 +37,7 @@ int clip(const Polygon& in, int count, Polygon& out, int axis, double sign, doub
 
 }  // namespace
 
-ClippedFace clipFace(const PileBody& owner, const PileBody& incident, const Mat3& ownerFromIncident,
+ClippedFace clipFace(const PileBox& owner, const PileBox& incident, const Mat3& ownerFromIncident,
                      const Vec3& incidentCenter, int axis, double sign, double slack) {
   int face = 0;
   for (int i = 1; i < 3; ++i) {

@@ -25,7 +25,7 @@ struct ClippedFace {
 /// The face of `incident` most antiparallel to the reference face `axis`, `sign` of `owner`, clipped to the
 /// sides of that face moved outward by `slack` [m] (Sutherland & Hodgman, CACM 17, 1974). ownerFromIncident =
 /// OᵀI, incident centre in the owner's frame.
-ClippedFace clipFace(const PileBody& owner, const PileBody& incident, const Mat3& ownerFromIncident,
+ClippedFace clipFace(const PileBox& owner, const PileBox& incident, const Mat3& ownerFromIncident,
                      const Vec3& incidentCenter, int axis, double sign, double slack);
 
 }  // namespace careen

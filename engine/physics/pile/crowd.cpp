@@ -56,7 +56,7 @@ std::size_t Crowd::admit(std::size_t body, const BodyState& state, const Quat& a
   PileBody added = pileBody(members_.world.bodies[body], state);
   added.attitude = attitude;
   if (part != nullptr) {
-    added.part = part;
+    added.drivenBy = part;
     added.velocity = state.velocity;
     added.omega = state.angularMomentum;
   }
@@ -152,7 +152,7 @@ double Crowd::chooseLength() const {
       fastest = std::max(fastest, (body.velocity.norm() + longest * members_.gravity) / body.length);
       bending = std::max(bending, times * body.radius * body.omega.squaredNorm());
       if (body.isDriven()) {
-        const MotionRates rates = boundsOf(body.part->motion);
+        const MotionRates rates = boundsOf(body.drivenBy->motion);
         bending = std::max(bending, rates.acceleration + body.radius * rates.angularAcceleration);
       }
     }

@@ -90,9 +90,9 @@ class Crowd {
   /// The space that members that are awake or asleep can reach within that time [s]; that the last step took.
   CrowdExtent extent(double length) const { return path_.extent(length); }
   CrowdExtent swept() const { return path_.swept(); }
-  /// Whether a member came that near [m] to a box, as far as that can be said before a search.
-  bool cameNear(std::size_t place, BoxAt box, double distance) const {
-    return path_.cameNear(place, box, distance);
+  /// Whether a member came that near [m] to another body, as far as that can be said before a search.
+  bool cameNear(std::size_t place, const Body& body, const Pose& pose, double distance) const {
+    return path_.cameNear(place, body, pose, distance);
   }
 
   /// Asleep: its pose is bitwise constant until another body pushes it.

@@ -47,9 +47,9 @@ void CrowdApart::refreshGaps(PileManifold& manifold, PileProjection::Look look) 
   if (b.isBox() &&  // else it has all corners
       manifold.moved + (look == PileProjection::Look::kFirst ? relativeMotion(a, b, members_.h) : 0) >
           contacts_.rebuildAfter(manifold.length)) {
-    buildManifold(a, b, manifold.reach, manifold);
+    buildBetween(a, b, manifold);
   } else {
-    refreshManifold(a, b, manifold);
+    refreshBetween(a, b, manifold);
   }
 }
 
@@ -242,7 +242,7 @@ double CrowdApart::deepestOnWay() {
   for (const PilePair& pair : contacts_.pairs()) {
     if ((members_.ways[at(pair.a)].projected || members_.ways[at(pair.b)].projected) &&
         !contacts_.isClear(pair)) {
-      deepest = std::max(deepest, depth_.onWay(pair.a, pair.b, contacts_.axisOf(pair)));
+      deepest = std::max(deepest, depth_.onWay(pair));
     }
   }
   return deepest;

@@ -116,7 +116,7 @@ Kinematics CrowdArticulations::motionOf(int place, const PileSolver* solver) con
 TouchingShape CrowdArticulations::shapeOf(const JointEnd& end) const {
   static const Vec3 none = Vec3::Zero();
   if (!end.body) {
-    return {.halfExtents = none, .halfSpace = &nowhere()};
+    return {.halfExtents = none, .center = none, .halfSpace = &nowhere()};
   }
   const Body& body = members_.world.bodies[at(*end.body)];
   return {.halfExtents = body.halfExtents, .center = body.boxCenter};

@@ -159,7 +159,7 @@ CrowdContacts::Looked CrowdContacts::lookAt(PilePair& pair, PileManifold& manifo
   if (!touching || manifold.moved > rebuildAfter(length) ||
       manifold.moved + motion + 0.5 * PileLengths::kReach * length > manifold.reach) {
     manifold.reach = PileLengths::kReach * length + 1.5 * motion;
-    touching = buildManifold(a, b, manifold.reach, manifold);
+    touching = buildBetween(a, b, manifold);
   } else {
     refresh(manifold);
   }
@@ -187,6 +187,8 @@ void CrowdContacts::beginManifold(const PilePair& pair, PileManifold& manifold) 
   manifold.clear();
   manifold.a = pair.a;
   manifold.b = pair.b;
+  manifold.boxA = pair.boxA;
+  manifold.boxB = pair.boxB;
   manifold.span = members_.span;
   const PileBody& a = members_[pair.a];
   const PileBody& b = members_[pair.b];
@@ -199,7 +201,7 @@ void CrowdContacts::endPaths() {
 }
 
 void CrowdContacts::refresh(PileManifold& manifold, const std::vector<PileBody>& bodies) const {
-  refreshManifold(bodies[at(manifold.a)], bodies[at(manifold.b)], manifold);
+  refreshBetween(bodies[at(manifold.a)], bodies[at(manifold.b)], manifold);
 }
 
 void CrowdContacts::rebuildNear() {

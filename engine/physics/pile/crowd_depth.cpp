@@ -69,13 +69,12 @@ double CrowdDepth::now(const PilePair& pair) const {
   if (motion < members_.tolerance && !startedDeep(pair)) {
     return 0;
   }
-  const int axis = contacts_.axisOf(pair);
-  const double atEnd = gapAtEnd(pair.a, pair.b, axis);
-  const double deep = atEnd < -kDeep * members_.tolerance ? overlapOf(a, b) : 0;
-  return std::max(deep, within(pair.a, pair.b, axis, atEnd));
+  const double atEnd = gapAtEnd(pair);
+  const double deep = atEnd < -kDeep * members_.tolerance ? overlap(pair) : 0;
+  return std::max(deep, within(pair, atEnd));
 }
 
-double CrowdDepth::onWay(int a, int b, int axis) const { return within(a, b, axis, gapAtEnd(a, b, axis)); }
+double CrowdDepth::onWay(const PilePair& pair) const { return within(pair, gapAtEnd(pair)); }
 
 // [m] By how much points of b moved in the last step as seen from a, at the most, to first order.
 double CrowdDepth::wayOf(int b, int a) const {
@@ -87,25 +86,31 @@ double CrowdDepth::wayOf(int b, int a) const {
          members_[b].radius * (turns_[at(b)] - turns_[at(a)]).norm();
 }
 
-// [m] Of those no deeper than kDeep, a lower bound. The axis is that of their manifold, or −1.
-double CrowdDepth::gapAtEnd(int a, int b, int axis) const {
-  return gapAbove(-kDeep * members_.tolerance, axis, members_[a], members_[b]);
+// [m] Of those no deeper than kDeep, a lower bound.
+double CrowdDepth::gapAtEnd(const PilePair& pair) const {
+  return withBoxes(members_[pair.a], pair.boxA, members_[pair.b], pair.boxB,
+                   [&](const PileBox& a, const PileBox& b) {
+                     return gapAbove(-kDeep * members_.tolerance, contacts_.axisOf(pair), a, b);
+                   });
 }
 
-// Whether they do along that axis on a straight way: within it, its separation is lower than at the ends by
-// what is of second order in their turns.
-bool CrowdDepth::staysApart(int a, int b, int axis) const {
+// Whether they do along the axis of their manifold on a straight way: within it, its separation is lower than
+// at the ends by what is of second order in their turns.
+bool CrowdDepth::staysApart(const PilePair& pair) const {
+  const int axis = contacts_.axisOf(pair);
   if (axis < 0) {
     return false;
   }
   const auto separation = [&](const PileBody& bodyA, const PileBody& bodyB) {
-    return separationAlong(axis, bodyA, bodyA.axes, bodyB, bodyB.axes, bodyA.middle() - bodyB.middle());
+    return withBoxes(bodyA, pair.boxA, bodyB, pair.boxB, [&](const PileBox& a, const PileBox& b) {
+      return separationAlong(axis, a, b, a.middle() - b.middle());
+    });
   };
-  const PileBody& fromA = members_.start[at(a)];
-  const PileBody& fromB = members_.start[at(b)];
-  const PileBody& toA = members_[a];
-  const PileBody& toB = members_[b];
-  const double turn = turns_[at(a)].norm() + turns_[at(b)].norm();
+  const PileBody& fromA = members_.start[at(pair.a)];
+  const PileBody& fromB = members_.start[at(pair.b)];
+  const PileBody& toA = members_[pair.a];
+  const PileBody& toB = members_[pair.b];
+  const double turn = turns_[at(pair.a)].norm() + turns_[at(pair.b)].norm();
   const double way = (toA.position - toB.position - (fromA.position - fromB.position)).norm();
   const double lower = 0.25 * turn * (turn * (toA.radius + toB.radius) + way);
   return std::min(separation(fromA, fromB), separation(toA, toB)) - lower > -kDeep * members_.tolerance;
@@ -113,19 +118,20 @@ bool CrowdDepth::staysApart(int a, int b, int axis) const {
 
 // [m] Overlap within the step, if more than kDeep: of features that are apart at both its ends. No gap
 // changes by more than points move.
-double CrowdDepth::within(int a, int b, int axis, double atEnd) const {
-  const double motion = members_[b].isBox() ? wayOf(b, a) : 0;
+double CrowdDepth::within(const PilePair& pair, double atEnd) const {
+  const PileBody& a = members_[pair.a];
+  const PileBody& b = members_[pair.b];
+  const double motion = b.isBox() ? wayOf(pair.b, pair.a) : 0;
   if (motion <= kSwing * members_.tolerance) {
     return 0;
   }
-  if (staysApart(a, b, axis)) {
+  if (staysApart(pair)) {
     return 0;
   }
   const auto gapAt = [&](double part) {
-    const Pose poseA = members_.between(at(a), part);
-    const Pose poseB = members_.between(at(b), part);
-    return gapAbove(-kDeep * members_.tolerance, axis, members_[a], poseA.worldFromBody, members_[b],
-                    poseB.worldFromBody, members_[a].middleAt(poseA) - members_[b].middleAt(poseB));
+    return gapAboveOfBoxes(-kDeep * members_.tolerance, contacts_.axisOf(pair),
+                           boxOf(a, pair.boxA, members_.between(at(pair.a), part)),
+                           boxOf(b, pair.boxB, members_.between(at(pair.b), part)));
   };
   const DepthSearch search{.motion = motion,
                            .deep = kDeep * members_.tolerance,
@@ -146,7 +152,8 @@ bool CrowdDepth::startedDeep(const PilePair& pair) const {
 }
 
 double CrowdDepth::overlap(const PilePair& pair, const std::vector<PileBody>& bodies) const {
-  return overlapOf(bodies[at(pair.a)], bodies[at(pair.b)]);
+  return withBoxes(bodies[at(pair.a)], pair.boxA, bodies[at(pair.b)], pair.boxB,
+                   [](const PileBox& a, const PileBox& b) { return overlapOf(a, b); });
 }
 
 bool CrowdDepth::anyIsDeep() const { return std::find(isDeep_.begin(), isDeep_.end(), 1) != isDeep_.end(); }

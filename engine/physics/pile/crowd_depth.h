@@ -33,16 +33,16 @@ class CrowdDepth {
   double now(const PilePair& pair) const;
   /// [m] Overlap of two boxes within the step, if more than kDeep; into half-spaces they are deepest at its
   /// ends.
-  double onWay(int a, int b, int axis) const;
+  double onWay(const PilePair& pair) const;
   /// [m] At the start of the step, of those that are deep now.
   double deepestBefore() const;
 
  private:
   double overlap(const PilePair& pair, const std::vector<PileBody>& bodies) const;
   double wayOf(int b, int a) const;
-  double gapAtEnd(int a, int b, int axis) const;
-  bool staysApart(int a, int b, int axis) const;
-  double within(int a, int b, int axis, double atEnd) const;
+  double gapAtEnd(const PilePair& pair) const;
+  bool staysApart(const PilePair& pair) const;
+  double within(const PilePair& pair, double atEnd) const;
   bool startedDeep(const PilePair& pair) const;
 
   const CrowdMembers& members_;

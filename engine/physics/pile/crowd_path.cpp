@@ -41,16 +41,27 @@ CrowdExtent CrowdPath::swept() const {
   return extent;
 }
 
-bool CrowdPath::cameNear(std::size_t place, BoxAt box, double distance) const {
+bool CrowdPath::cameNear(std::size_t place, const Body& body, const Pose& pose, double distance) const {
   if (!members_.ways[place].moved) {
     return false;
   }
   const PileBody& start = members_.start[place];
   const double within = distance + members_[place].path - start.path + members_.tolerance;
-  return (box.pose.position - start.position).norm() <= box.radius() + start.radius + within &&
-         BoxAxes(box.pose.worldFromBody, box.halfExtents, start.axes, start.halfExtents,
-                 box.middle() - start.middle())
-                 .gap() <= within;
+  if ((pose.position - start.position).norm() > radiusOf(body) + start.radius + within) {
+    return false;
+  }
+  for (int i = 0; i < body.partCount(); ++i) {
+    const BoxAt box = boxAt(pose, body, i);
+    for (int j = 0; j < start.partCount(); ++j) {
+      const PileBox own = boxOf(start, j);
+      if (BoxAxes(box.pose.worldFromBody, box.halfExtents, own.axes, own.halfExtents,
+                  box.middle() - own.middle())
+              .gap() <= within) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 Vec3 CrowdPath::meanSpin(std::size_t place) const {

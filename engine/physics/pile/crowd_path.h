@@ -37,8 +37,8 @@ class CrowdPath {
   /// The space that members that are awake or asleep can reach within that time [s]; that the last step took.
   CrowdExtent extent(double length) const;
   CrowdExtent swept() const;
-  /// Whether a member came that near [m] to a box, as far as that can be said before a search.
-  bool cameNear(std::size_t place, BoxAt box, double distance) const;
+  /// Whether a member came that near [m] to another body, as far as that can be said before a search.
+  bool cameNear(std::size_t place, const Body& body, const Pose& pose, double distance) const;
 
  private:
   Vec3 meanSpin(std::size_t place) const;

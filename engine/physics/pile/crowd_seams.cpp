@@ -131,11 +131,10 @@ bool CrowdSeams::staysApart(const PileManifold& manifold) const {
     const Rates ofA = ratesAt(manifold.a, time);
     const Rates ofB = ratesAt(manifold.b, time);
     const Vec3 apart = a.position - b.position + time * (ofA.velocity - ofB.velocity);
-    const Mat3 axesA = axesThen(a, time * ofA.omega);
-    const Mat3 axesB = axesThen(b, time * ofB.omega);
-    const Vec3 arms = (a.center == nullptr ? Vec3(Vec3::Zero()) : Vec3(axesA * *a.center)) -
-                      (b.center == nullptr ? Vec3(Vec3::Zero()) : Vec3(axesB * *b.center));
-    least = std::min(least, separationAlong(manifold.axis, a, axesA, b, axesB, apart + arms));
+    const PileBox boxA = boxOf(a, manifold.boxA, {a.position, axesThen(a, time * ofA.omega)});
+    const PileBox boxB = boxOf(b, manifold.boxB, {b.position, axesThen(b, time * ofB.omega)});
+    const Vec3 arms = boxA.boxArm() - boxB.boxArm();
+    least = std::min(least, separationAlong(manifold.axis, boxA, boxB, apart + arms));
     const double turn = std::abs(time) * (ofA.omega.norm() + ofB.omega.norm());
     const double way = std::abs(time) * (ofA.velocity - ofB.velocity).norm();
     lower = std::max(lower, turn * (turn * (a.radius + b.radius) + way));
@@ -149,10 +148,9 @@ double CrowdSeams::gapAt(const PileManifold& manifold, double along) const {
       JoinedSteps::beside(memory_.length, members_.h, kBesideSeam * (2 * along - 1));
   const PileBody& a = members_[manifold.a];
   const PileBody& b = members_[manifold.b];
-  const Pose poseA = onPath(at(manifold.a), moment);
-  const Pose poseB = onPath(at(manifold.b), moment);
-  return gapAbove(-kDeepAtSeam * members_.tolerance, manifold.axis, a, poseA.worldFromBody, b,
-                  poseB.worldFromBody, a.middleAt(poseA) - b.middleAt(poseB));
+  return gapAboveOfBoxes(-kDeepAtSeam * members_.tolerance, manifold.axis,
+                         boxOf(a, manifold.boxA, onPath(at(manifold.a), moment)),
+                         boxOf(b, manifold.boxB, onPath(at(manifold.b), moment)));
 }
 
 Pose CrowdSeams::onPath(std::size_t i, const JoinedSteps::Beside& moment) const {

@@ -106,12 +106,12 @@ void addPoint(PileManifold& manifold, const Vec3& local, std::uint32_t feature) 
 }
 
 // Clips the incident face to the reference face, whose outward normal points to the incident box.
-void addFace(const PileBody& a, const PileBody& b, const PileAxes& axes, double reach, double least,
+void addFace(const PileBox& a, const PileBox& b, const PileAxes& axes, double reach, double least,
              PileManifold& manifold) {
   const bool ofB = axes.face >= 3;
   const int axis = axes.face % 3;
-  const PileBody& owner = ofB ? b : a;
-  const PileBody& incident = ofB ? a : b;
+  const PileBox& owner = ofB ? b : a;
+  const PileBox& incident = ofB ? a : b;
   const Mat3 ownerFromIncident = ofB ? Mat3(axes.cosines.transpose()) : axes.cosines;
   const Vec3 center = ofB ? axes.apartB : Vec3(-axes.apartA);
   const double sign = center[axis] < 0 ? -1 : 1;
@@ -131,7 +131,7 @@ void addFace(const PileBody& a, const PileBody& b, const PileAxes& axes, double 
 }
 
 // The edge pair of the best edge axis, if its closest points lie on both edges.
-void addEdges(const PileBody& a, const PileBody& b, const PileAxes& axes, PileManifold& manifold) {
+void addEdges(const PileBox& a, const PileBox& b, const PileAxes& axes, PileManifold& manifold) {
   const int i = (axes.edges - 6) / 3;
   const int j = (axes.edges - 6) % 3;
   Vec3 normal = a.axes.col(i).cross(b.axes.col(j));
@@ -162,7 +162,7 @@ void addEdges(const PileBody& a, const PileBody& b, const PileAxes& axes, PileMa
   addPoint(manifold, Vec3::Zero(), kEdgeFeature);
 }
 
-Vec3 nearestIn(const PileBody& box, const Vec3& point) {
+Vec3 nearestIn(const PileBox& box, const Vec3& point) {
   const Vec3 middle = box.middle();
   const Vec3 local = box.axes.transpose() * (point - middle);
   return middle + box.axes * local.cwiseMax(-box.halfExtents).cwiseMin(box.halfExtents);
@@ -170,7 +170,7 @@ Vec3 nearestIn(const PileBody& box, const Vec3& point) {
 
 // Corner against corner or edge, outside every face: closest points by alternating projections (von Neumann)
 // onto the two boxes. The plane belongs to a, the point to b.
-void addClosest(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
+void addClosest(const PileBox& a, const PileBox& b, double reach, PileManifold& manifold) {
   Vec3 onB = nearestIn(b, a.middle());
   Vec3 onA = nearestIn(a, onB);
   const double still = kSlack * kSlack * manifold.length;
@@ -197,11 +197,11 @@ void addClosest(const PileBody& a, const PileBody& b, double reach, PileManifold
   addPoint(manifold, b.axes.transpose() * (onB - b.middle()), kClosestFeature);
 }
 
-void refreshOfBoxes(const PileBody& a, const PileBody& b, PileManifold& manifold) {
+void refreshOfBoxes(const PileBox& a, const PileBox& b, PileManifold& manifold) {
   const Vec3 apart = a.middle() - b.middle();
   const Vec3 toMiddle = a.boxArm();
-  const PileBody& owner = manifold.planeOfB ? b : a;
-  const PileBody& other = manifold.planeOfB ? a : b;
+  const PileBox& owner = manifold.planeOfB ? b : a;
+  const PileBox& other = manifold.planeOfB ? a : b;
   const double sign = manifold.planeOfB ? 1 : -1;
   const int planePoints = manifold.count - (manifold.hasEdges ? 1 : 0);
   if (planePoints > 0) {
@@ -244,7 +244,7 @@ void refreshOfBoxes(const PileBody& a, const PileBody& b, PileManifold& manifold
   }
 }
 
-void refreshAtWall(const PileBody& a, const Wall& wall, PileManifold& manifold) {
+void refreshAtWall(const PileBox& a, const Wall& wall, PileManifold& manifold) {
   const double height = gap(wall, a.position);
   const Vec3 toMiddle = a.boxArm();
   for (int k = 0; k < manifold.count; ++k) {
@@ -254,7 +254,7 @@ void refreshAtWall(const PileBody& a, const Wall& wall, PileManifold& manifold) 
   }
 }
 
-bool findPointsOfBoxes(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
+bool findPointsOfBoxes(const PileBox& a, const PileBox& b, double reach, PileManifold& manifold) {
   PileAxes axes;
   const double tie = kTie * manifold.length;
   if (!axes.find(a, b, reach, manifold.axis, tie)) {
@@ -276,7 +276,7 @@ bool findPointsOfBoxes(const PileBody& a, const PileBody& b, double reach, PileM
   return true;
 }
 
-bool findPointsAtWall(const PileBody& a, const Wall& wall, double reach, PileManifold& manifold) {
+bool findPointsAtWall(const PileBox& a, const Wall& wall, double reach, PileManifold& manifold) {
   manifold.planeOfB = true;
   manifold.plane = frameOf(wall.normal);
   const Vec3 up = a.axes.transpose() * wall.normal;
@@ -291,14 +291,14 @@ bool findPointsAtWall(const PileBody& a, const Wall& wall, double reach, PileMan
   return manifold.separation <= reach;
 }
 
-double gapAtWall(const PileBody& a, const Wall& wall) {
+double gapAtWall(const PileBox& a, const Wall& wall) {
   const Vec3 up = a.axes.transpose() * wall.normal;
   return gap(wall, a.middle()) - dot(a.halfExtents, up.cwiseAbs());
 }
 
 }  // namespace
 
-bool buildManifold(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold) {
+bool buildManifold(const PileBox& a, const PileBox& b, double reach, PileManifold& manifold) {
   const Former former = formerOf(manifold);
   manifold.count = 0;
   manifold.hasEdges = false;
@@ -312,7 +312,7 @@ bool buildManifold(const PileBody& a, const PileBody& b, double reach, PileManif
   return found;
 }
 
-void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifold) {
+void refreshManifold(const PileBox& a, const PileBox& b, PileManifold& manifold) {
   if (b.isBox()) {
     refreshOfBoxes(a, b, manifold);
   } else {
@@ -335,12 +335,11 @@ double wayNearer(const PileBody& a, const PileBody& b, const Vec3& apart) {
   return b.isBox() ? way.norm() : std::abs(dot(b.halfSpace->normal, way));
 }
 
-double gapAbove(double least, int axis, const PileBody& a, const PileBody& b) {
-  return b.isBox() ? gapAbove(least, axis, a, a.axes, b, b.axes, a.middle() - b.middle())
-                   : gapAtWall(a, *b.halfSpace);
+double gapAbove(double least, int axis, const PileBox& a, const PileBox& b) {
+  return b.isBox() ? gapAboveOfBoxes(least, axis, a, b) : gapAtWall(a, *b.halfSpace);
 }
 
-double overlapOf(const PileBody& a, const PileBody& b) {
+double overlapOf(const PileBox& a, const PileBox& b) {
   return std::max(
       0.0, b.isBox() ? -BoxAxes(a.axes, a.halfExtents, b.axes, b.halfExtents, a.middle() - b.middle()).gap()
                      : -gapAtWall(a, *b.halfSpace));

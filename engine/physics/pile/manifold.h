@@ -56,6 +56,8 @@ struct PileManifold {
 
   int a = 0;
   int b = 0;
+  int boxA = 0;       ///< which of a's boxes
+  int boxB = 0;       ///< likewise of b's
   double length = 0;  ///< [m] smallest size of the smaller body
   Material material;  ///< of the pair
   double span = 0;    ///< [s] in which its impulses acted
@@ -99,10 +101,21 @@ struct PileManifold {
 /// Rebuilds the manifold with points of gap up to `reach` [m]; impulses of persisting features are kept. If
 /// the bodies are farther apart, returns false and leaves no points; `separation` is then a lower bound of
 /// the distance.
-bool buildManifold(const PileBody& a, const PileBody& b, double reach, PileManifold& manifold);
+bool buildManifold(const PileBox& a, const PileBox& b, double reach, PileManifold& manifold);
 
 /// Updates gaps, points and frames to the current poses.
-void refreshManifold(const PileBody& a, const PileBody& b, PileManifold& manifold);
+void refreshManifold(const PileBox& a, const PileBox& b, PileManifold& manifold);
+
+/// The same of the bodies whose boxes they are.
+inline bool buildBetween(const PileBody& a, const PileBody& b, PileManifold& manifold) {
+  return withBoxes(a, manifold.boxA, b, manifold.boxB, [&](const PileBox& boxA, const PileBox& boxB) {
+    return buildManifold(boxA, boxB, manifold.reach, manifold);
+  });
+}
+inline void refreshBetween(const PileBody& a, const PileBody& b, PileManifold& manifold) {
+  withBoxes(a, manifold.boxA, b, manifold.boxB,
+            [&](const PileBox& boxA, const PileBox& boxB) { refreshManifold(boxA, boxB, manifold); });
+}
 
 /// Bound [m] on the relative motion of the bodies in h [s], seen from a; of one whose step is as long.
 double relativeMotion(const PileBody& a, const PileBody& b, double h);
@@ -111,8 +124,8 @@ double wayNearer(const PileBody& a, const PileBody& b, const Vec3& apart);
 
 /// [m] The gap or, if it is above `least`, a lower bound of it that is, too. `axis`: of their manifold, or
 /// −1.
-double gapAbove(double least, int axis, const PileBody& a, const PileBody& b);
+double gapAbove(double least, int axis, const PileBox& a, const PileBox& b);
 /// Penetration depth [m], of boxes by all 15 axes; 0 if they are disjoint.
-double overlapOf(const PileBody& a, const PileBody& b);
+double overlapOf(const PileBox& a, const PileBox& b);
 
 }  // namespace careen

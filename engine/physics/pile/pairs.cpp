@@ -16,10 +16,21 @@ constexpr int kLeaf = 4;
 constexpr int kMostRefits = 16;
 constexpr std::size_t kDeepest = 128;
 
-constexpr std::uint64_t kHalfSpace = 0x80000000U;
+// The bits of a key: 24 of a's place, one of half-spaces, 23 of b's place, 8 of a's box, 8 of b's.
+constexpr unsigned kBoxBits = 8;
+constexpr unsigned kPlaceBits = 23;
+constexpr unsigned kShiftOfB = 2 * kBoxBits;
+constexpr unsigned kShiftOfA = kShiftOfB + kPlaceBits + 1;
+constexpr std::uint64_t kMostPlace = (1U << kPlaceBits) - 1;
+constexpr std::uint64_t kMostBox = (1U << kBoxBits) - 1;
+constexpr std::uint64_t kHalfSpace = 1ULL << (kShiftOfB + kPlaceBits);
 
-std::uint64_t keyOf(int a, int b) {
-  return (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
+PilePair pairOf(std::uint64_t key) {
+  return {.key = key,
+          .a = static_cast<int>(key >> kShiftOfA),
+          .b = static_cast<int>(key >> kShiftOfB & kMostPlace),
+          .boxA = static_cast<int>(key >> kBoxBits & kMostBox),
+          .boxB = static_cast<int>(key & kMostBox)};
 }
 
 }  // namespace
@@ -195,7 +206,8 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, int body) {
       const bool twice = left_[at(other)] != 0 && other < body;
       if (other != body && !twice && !(held && bodies[at(other)].held()) && box.overlaps(fat_[at(other)]) &&
           (!mayTouch_ || mayTouch_(body, other))) {
-        found_.push_back(keyOf(std::min(body, other), std::max(body, other)));
+        const auto [a, b] = std::minmax(body, other);
+        addFound(bodies[at(a)], a, bodies[at(b)], b);
       }
     }
   }
@@ -207,7 +219,18 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, int body) {
     const Vec3& n = wall.normal;
     const Vec3 lowest = (n.array() > 0).select(box.low, box.high);
     if (dot(n, lowest) <= wall.offset) {
-      found_.push_back(kHalfSpace | keyOf(body, w));
+      addFound(bodies[at(body)], body, bodies[at(w)], w);
+    }
+  }
+}
+
+// All boxes of the two.
+void PilePairs::addFound(const PileBody& a, int placeA, const PileBody& b, int placeB) {
+  const std::uint64_t key = static_cast<std::uint64_t>(placeA) << kShiftOfA |
+                            static_cast<std::uint64_t>(placeB) << kShiftOfB | (b.isBox() ? 0 : kHalfSpace);
+  for (int i = 0; i < a.partCount(); ++i) {
+    for (int j = 0; j < b.partCount(); ++j) {
+      found_.push_back(key | static_cast<std::uint64_t>(i) << kBoxBits | static_cast<std::uint64_t>(j));
     }
   }
 }
@@ -218,9 +241,7 @@ void PilePairs::merge() {
   auto found = found_.begin();
   const auto hasLeft = [&](const PilePair& pair) { return left_[at(pair.a)] != 0 || left_[at(pair.b)] != 0; };
   const auto add = [&] {
-    merged_.push_back({.key = *found,
-                       .a = static_cast<int>(*found >> 32U),
-                       .b = static_cast<int>(*found & (kHalfSpace - 1))});
+    merged_.push_back(pairOf(*found));
     ++found;
   };
   for (const PilePair& old : pairs_) {

@@ -14,12 +14,14 @@
 
 namespace careen {
 
-/// Broad-phase pair: two bodies close enough for the narrow phase, by place, a < b; or a box a and a
-/// half-space b.
+/// Broad-phase pair: a box of each of two bodies close enough for the narrow phase, by place, a < b; or of a
+/// body a and a half-space b.
 struct PilePair {
-  std::uint64_t key = 0;  ///< from a and b; sorts by a, then b, half-spaces last
+  std::uint64_t key = 0;  ///< sorts by a, then b, half-spaces last, then their boxes
   int a = 0;
   int b = 0;
+  int boxA = 0;   ///< which of a's boxes
+  int boxB = 0;   ///< likewise of b's
   int slot = -1;  ///< index of its manifold, −1: none
   // Where there was no manifold when the two were last looked at:
   Vec3 apart = Vec3::Zero();  ///< [m] a's centre from b's
@@ -74,6 +76,7 @@ class PilePairs {
   void refit();
   bool findLeft(std::span<const PileBody> bodies, const Vec3& gravity, double time, double lookAhead);
   void findPartners(std::span<const PileBody> bodies, int body);
+  void addFound(const PileBody& a, int placeA, const PileBody& b, int placeB);
   void merge();
 
   std::shared_ptr<Team> team_;

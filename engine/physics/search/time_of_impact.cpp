@@ -34,7 +34,7 @@ class WallApproach {
 
   void moveTo(double time) {
     const double elapsed = box_.age + time;
-    const Attitude now = box_.attitude(elapsed);
+    const Attitude now = box_.attitudeAfter(elapsed);
     const Vec3 turning = normal_.cross(now.angularVelocity);
     double height = heightAt(elapsed);
     double rate = rateAt(elapsed);

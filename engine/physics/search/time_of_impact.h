@@ -63,7 +63,8 @@ class AttitudeView {
 /// A box in flight, at rest (velocity, acceleration and bounds zero), in a ContactStep, or driven.
 struct MovingBox {
   Vec3 halfExtents;
-  Vec3 center = Vec3::Zero();           ///< [m] middle of the box, body frame
+  Vec3 center = Vec3::Zero();           ///< [m] middle of the box, own frame
+  const Mat3* bodyFromBox = nullptr;    ///< null: its axes are the body's
   Vec3 position;                        ///< [m] of the centre of mass when the flight began, world
   Vec3 velocity;                        ///< [m/s] likewise
   Vec3 acceleration;                    ///< [m/s²] constant
@@ -91,8 +92,16 @@ struct MovingBox {
   }
   /// [m] From the centre of mass to the furthest corner.
   double radius() const { return (center.cwiseAbs() + halfExtents).norm(); }
+  /// Of the box's own axes, `elapsed` [s] after the flight began.
+  Attitude attitudeAfter(double elapsed) const {
+    Attitude now = attitude(elapsed);
+    if (bodyFromBox != nullptr) {
+      now.worldFromBody = now.worldFromBody * *bodyFromBox;
+    }
+    return now;
+  }
   Pose poseAt(double time) const {
-    return {.position = positionAt(time), .worldFromBody = attitude(age + time).worldFromBody};
+    return {.position = positionAt(time), .worldFromBody = attitudeAfter(age + time).worldFromBody};
   }
 };
 

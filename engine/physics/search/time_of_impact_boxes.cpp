@@ -201,8 +201,8 @@ void BoxApproach::boundTranslation(double time) {
 void BoxApproach::moveTo(double time) {
   const double elapsedA = a_.age + time;
   const double elapsedB = b_.age + time;
-  nowA_ = a_.attitude(elapsedA);
-  nowB_ = b_.attitude(elapsedB);
+  nowA_ = a_.attitudeAfter(elapsedA);
+  nowB_ = b_.attitudeAfter(elapsedB);
   offset_ = offsetAt(time);
   rate_ = velocityAt(time);
   relativeTurning_ = nowA_.angularVelocity - nowB_.angularVelocity;

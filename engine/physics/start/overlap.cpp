@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "core/brief.h"
@@ -51,9 +52,10 @@ void forBoundsThatMeet(std::span<const PlacedBox> boxes, std::span<const Vec3> p
   }
 }
 
-// Of boxes that have been moved: their separation is given.
-BoxAxes axesOf(const PlacedBox& a, const PlacedBox& b, const Vec3& bToA) {
-  return {a.pose.worldFromBody, a.halfExtents, b.pose.worldFromBody, b.halfExtents, bToA};
+// Of boxes that have been moved: the way from the place of b's body to that of a's is given.
+BoxAxes axesOf(const BoxAt& a, const BoxAt& b, const Vec3& bToA) {
+  const Vec3 apart = a.isCentered() && b.isCentered() ? bToA : Vec3(bToA + (a.arm() - b.arm()));
+  return {a.pose.worldFromBody, a.halfExtents, b.pose.worldFromBody, b.halfExtents, apart};
 }
 
 // The lengths whose difference is the gap of two boxes.
@@ -81,6 +83,8 @@ constexpr double kHeaviest = 64;
 struct Barrier {
   std::size_t a = 0;
   std::size_t b = 0;
+  int boxA = 0;    // which of a's boxes
+  int boxB = 0;    // likewise of b's
   int choice = 0;  // rank of the axis among the pair's, by depth: 0 is the least
   Vec3 normal = Vec3::Zero();
   double least = 0;    // [m]
@@ -169,7 +173,8 @@ class Parting {
     }
     addWalls();
     std::sort(barriers_.begin(), barriers_.end(), [this](const Barrier& x, const Barrier& y) {
-      return std::pair(rank_[x.a], rank_[x.b]) < std::pair(rank_[y.a], rank_[y.b]);
+      return std::tuple(rank_[x.a], rank_[x.b], x.boxA, x.boxB) <
+             std::tuple(rank_[y.a], rank_[y.b], y.boxA, y.boxB);
     });
     return barriers_.size() > known;
   }
@@ -178,21 +183,26 @@ class Parting {
     forBoundsThatMeet(boxes_, now_, apart_, [this](std::size_t i, std::size_t j) {
       const auto [a, b] = rank_[i] < rank_[j] ? std::pair(i, j) : std::pair(j, i);
       const double lengths = lengthsOf(boxes_[a], boxes_[b], now_[a], now_[b]);
-      if (!known_.contains({a, b}) &&
-          axesOf(boxes_[a], boxes_[b], now_[a] - now_[b]).gap() < -kGapAllowance * lengths) {
-        known_.insert({a, b});
-        barriers_.push_back({.a = a, .b = b, .lengths = lengths});
-        choose(barriers_.back(), now_[a] - now_[b]);
+      for (int k = 0; k < boxes_[a].partCount(); ++k) {
+        for (int l = 0; l < boxes_[b].partCount(); ++l) {
+          if (!known_.contains({a, k, b, l}) &&
+              axesOf(boxes_[a].at(k), boxes_[b].at(l), now_[a] - now_[b]).gap() < -kGapAllowance * lengths) {
+            known_.insert({a, k, b, l});
+            barriers_.push_back({.a = a, .b = b, .boxA = k, .boxB = l, .lengths = lengths});
+            choose(barriers_.back(), now_[a] - now_[b]);
+          }
+        }
       }
     });
   }
 
   void addWalls() {
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      const Pose pose{.position = now_[i], .worldFromBody = boxes_[i].pose.worldFromBody};
+      PlacedBox box = boxes_[i];
+      box.pose.position = now_[i];
       for (std::size_t w = 0; w < walls_.size() && ease_[i] > 0; ++w) {
-        const LowestGap lowest = lowestGap(walls_[w], {pose, boxes_[i].halfExtents});
-        if (lowest.overlaps() && known_.insert({i, boxes_.size() + w}).second) {
+        const LowestGap lowest = lowestGap(walls_[w], box);
+        if (lowest.overlaps() && known_.insert({i, 0, boxes_.size() + w, 0}).second) {
           const double centre = dot(walls_[w].normal, now_[i]);
           barriers_.push_back({.a = i,
                                .b = boxes_.size() + w,
@@ -207,7 +217,10 @@ class Parting {
   // Of the pair's 15 axes in both directions, takes number barrier.choice in order of the distance the boxes
   // must move along it.
   void choose(Barrier& barrier, const Vec3& bToA) const {
-    const BoxAxes axes = axesOf(boxes_[barrier.a], boxes_[barrier.b], bToA);
+    const BoxAt boxA = boxes_[barrier.a].at(barrier.boxA);
+    const BoxAt boxB = boxes_[barrier.b].at(barrier.boxB);
+    const BoxAxes axes = axesOf(boxA, boxB, bToA);
+    const Vec3 apart = bToA + (boxA.arm() - boxB.arm());
     struct Way {
       double depth = 0;
       int axis = 0;
@@ -218,7 +231,7 @@ class Parting {
       const double separation = axes.separation({k});
       if (separation > std::numeric_limits<double>::lowest()) {
         ways.push_back({.depth = -separation, .axis = k, .sign = 1});
-        const double across = 2 * std::fabs(dot(axes.normal({k}), bToA));
+        const double across = 2 * std::fabs(dot(axes.normal({k}), apart));
         ways.push_back({.depth = across - separation, .axis = k, .sign = -1});
       }
     }
@@ -294,17 +307,41 @@ class Parting {
   Indices rank_;  // of its name, walls after boxes
   std::vector<Barrier> barriers_;
   DisplacementSolver solver_;
-  std::set<std::pair<std::size_t, std::size_t>> known_;  // pairs that have one
+  std::set<std::tuple<std::size_t, int, std::size_t, int>> known_;  // pairs of boxes that have one
   std::size_t pushes_ = 0;
 };
 
 }  // namespace
 
-LowestGap lowestGap(const Wall& wall, BoxAt box) {
-  const Vec3& halfExtents = box.halfExtents;
-  const double reach = dot((box.pose.worldFromBody.transpose() * wall.normal).cwiseAbs(), halfExtents);
-  const double size = dot(wall.normal.cwiseAbs(), box.middle().cwiseAbs());
-  return {.gap = gapToPlane(box, wall.normal, wall.offset), .lengths = size + reach + std::fabs(wall.offset)};
+BoxAt PlacedBox::at(int part) const {
+  return parts.empty() ? BoxAt{.pose = pose, .halfExtents = halfExtents}
+                       : boxAt(pose, parts[static_cast<std::size_t>(part)], part);
+}
+
+PlacedBox placedBox(const Body& body, const Pose& pose) {
+  PlacedBox placed{.name = body.name,
+                   .halfExtents = body.halfExtents,
+                   .pose = boxPose(body, pose),
+                   .inverseMass = body.mass.inverseMass};
+  for (const BodyPart& part : body.parts) {
+    placed.parts.push_back(part.seenFrom(body.boxCenter));
+  }
+  return placed;
+}
+
+LowestGap lowestGap(const Wall& wall, const PlacedBox& placed) {
+  LowestGap lowest{.gap = std::numeric_limits<double>::infinity()};
+  for (int k = 0; k < placed.partCount(); ++k) {
+    const BoxAt box = placed.at(k);
+    const double gap = gapToPlane(box, wall.normal, wall.offset);
+    if (gap < lowest.gap) {
+      const double reach =
+          dot((box.pose.worldFromBody.transpose() * wall.normal).cwiseAbs(), box.halfExtents);
+      const double size = dot(wall.normal.cwiseAbs(), box.middle().cwiseAbs());
+      lowest = {.gap = gap, .lengths = size + reach + std::fabs(wall.offset)};
+    }
+  }
+  return lowest;
 }
 
 std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes, ApartPairs apart) {
@@ -313,7 +350,12 @@ std::vector<Overlap> overlaps(std::span<const PlacedBox> boxes, ApartPairs apart
     const auto [first, second] = std::minmax(i, j);
     const PlacedBox& a = boxes[first];
     const PlacedBox& b = boxes[second];
-    const double gap = BoxAxes(a.at(), b.at()).gap();
+    double gap = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < a.partCount(); ++k) {
+      for (int l = 0; l < b.partCount(); ++l) {
+        gap = std::min(gap, BoxAxes(a.at(k), b.at(l)).gap());
+      }
+    }
     if (gap < -kGapAllowance * lengthsOf(a, b, a.pose.position, b.pose.position)) {
       all.push_back({.first = first, .second = second, .depth = -gap});
     }

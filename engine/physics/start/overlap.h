@@ -17,17 +17,22 @@ namespace careen {
 /// Allowed initial penetration due to rounding, relative to the lengths whose difference is the gap.
 inline constexpr double kGapAllowance = 1e-12;
 
-/// A box with its pose, that of its middle, for overlap tests.
+/// A box with its pose, that of its middle, for overlap tests; or several boxes in one frame, and that around
+/// them about its origin.
 struct PlacedBox {
   std::string name;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
   Pose pose = {};
-  double inverseMass = 0;  ///< [1/kg] 0: fixed
+  double inverseMass = 0;            ///< [1/kg] 0: fixed
+  std::vector<BodyPart> parts = {};  ///< none: the box itself
 
-  BoxAt at() const { return {pose, halfExtents}; }
+  int partCount() const { return parts.empty() ? 1 : static_cast<int>(parts.size()); }
+  BoxAt at(int part) const;
 };
+/// A body at a pose.
+PlacedBox placedBox(const Body& body, const Pose& pose);
 
-/// Two overlapping boxes, and the penetration depth [m].
+/// Two overlapping boxes, and the penetration depth [m]; of several boxes, of those that are deepest.
 struct Overlap {
   std::size_t first = 0;
   std::size_t second = 0;
@@ -48,7 +53,7 @@ struct LowestGap {
   double lengths = 0;
   bool overlaps() const { return gap < -kGapAllowance * lengths; }
 };
-LowestGap lowestGap(const Wall& wall, BoxAt box);
+LowestGap lowestGap(const Wall& wall, const PlacedBox& box);
 
 /// What boxes can collide with.
 enum class Meeting { kWalls, kAll };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "core/math/rotation.h"
@@ -41,6 +42,57 @@ Material swapped(const Material& pair) {
   Material other = pair;
   other.surface = {.velocity = -pair.surface.velocity, .spin = -pair.surface.spin};
   return other;
+}
+
+namespace {
+
+/// [1] Of its size: corners within a box by less are on its surface, and nearer to each other are one.
+constexpr double kOnSurface = 0x1p-40;
+
+bool isWithin(const BodyPart& part, const Vec3& point) {
+  const Vec3 own = (part.turned ? Vec3(part.bodyFromPart.transpose() * point) : point) - part.center;
+  const double surface = kOnSurface * (part.halfExtents.norm() + part.center.norm());
+  return (own.cwiseAbs().array() < part.halfExtents.array() - surface).all();
+}
+
+}  // namespace
+
+BodyPart BodyPart::seenFrom(const Vec3& origin) const {
+  BodyPart moved = *this;
+  moved.center -= turned ? Vec3(bodyFromPart.transpose() * origin) : origin;
+  return moved;
+}
+
+double Body::thinnest() const {
+  if (parts.empty()) {
+    return halfExtents.minCoeff();
+  }
+  double thinnest = parts.front().halfExtents.minCoeff();
+  for (const BodyPart& part : parts) {
+    thinnest = std::min(thinnest, part.halfExtents.minCoeff());
+  }
+  return thinnest;
+}
+
+void setParts(Body& body, std::vector<BodyPart> parts) {
+  body.parts = std::move(parts);
+  body.partCorners.clear();
+  body.halfExtents = Vec3::Zero();
+  for (const BodyPart& part : body.parts) {
+    for (int k = 0; k < kCorners; ++k) {
+      const Vec3 corner = part.corner(k);
+      body.halfExtents = body.halfExtents.cwiseMax((corner - body.boxCenter).cwiseAbs());
+      const bool isCovered =
+          std::any_of(body.parts.begin(), body.parts.end(),
+                      [&](const BodyPart& other) { return isWithin(other, corner); }) ||
+          std::any_of(body.partCorners.begin(), body.partCorners.end(), [&](const Vec3& other) {
+            return (other - corner).norm() <= kOnSurface * (corner.norm() + part.halfExtents.norm());
+          });
+      if (!isCovered) {
+        body.partCorners.push_back(corner);
+      }
+    }
+  }
 }
 
 Mat3 inverseInertiaWorld(const MassProperties& mass, const Mat3& worldFromBody) {
@@ -83,6 +135,18 @@ Pose boxPose(const Body& body, const Pose& pose) {
 
 Pose bodyPose(const Body& body, const Pose& box) {
   return body.boxCenter.isZero(0) ? box : Pose{box.worldPoint(-body.boxCenter), box.worldFromBody};
+}
+
+Pose partPose(const Body& body, int part, const Pose& box) {
+  if (body.parts.empty()) {
+    return box;
+  }
+  const BodyPart own = body.part(part).seenFrom(body.boxCenter);
+  return {box.worldPoint(own.middle()), own.ownAxes(box.worldFromBody)};
+}
+
+const Vec3& partHalfExtents(const Body& body, int part) {
+  return body.parts.empty() ? body.halfExtents : body.part(part).halfExtents;
 }
 
 Vec3 boxVelocity(const Body& body, const BodyState& state) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "core/math/linear_algebra.h"
 #include "core/math/pose.h"
@@ -100,8 +102,29 @@ Vec3 angularMomentum(const MassProperties& mass, const Mat3& worldFromBody, cons
 /// ½ M v² + ½ ω·L, [J]; 0 for immovable bodies.
 double kineticEnergy(const MassProperties& mass, const BodyState& state);
 
-/// A rigid body and the box that it collides as. The body's frame has its origin at the centre of mass and
-/// its axes along the box's edges; the box's middle is the centre of mass unless `boxCenter` says otherwise.
+/// One of the boxes of a body. Its own frame has the body's origin, and axes along the edges of the box.
+struct BodyPart {
+  Vec3 halfExtents = Vec3::Zero();       ///< [m]
+  Vec3 center = Vec3::Zero();            ///< [m] middle of the box, own frame
+  bool turned = false;                   ///< its axes are not the body's
+  Mat3 bodyFromPart = Mat3::Identity();  ///< [1] a rotation
+
+  /// Its axes in the world, given the body's.
+  Mat3 ownAxes(const Mat3& worldFromBody) const {
+    return turned ? Mat3(worldFromBody * bodyFromPart) : worldFromBody;
+  }
+  /// [m] A corner, as in corner() below, and the middle of the box: body frame.
+  Vec3 corner(int index) const;
+  Vec3 middle() const { return turned ? Vec3(bodyFromPart * center) : center; }
+  /// The same in a frame whose origin is there [m] in this body's.
+  BodyPart seenFrom(const Vec3& origin) const;
+  bool operator==(const BodyPart&) const = default;
+};
+
+/// A rigid body and the box, or the union of boxes, that it collides as. The body's frame has its origin at
+/// the centre of mass; its axes lie along the box's edges, and the box's middle is the centre of mass unless
+/// `boxCenter` says otherwise. Of several boxes that is the smallest box around all of them, along the body's
+/// axes, about the point that the scene gives as the body's place.
 struct Body {
   std::string name;
   Vec3 halfExtents = Vec3::Zero();  ///< [m] half sizes along the body's axes
@@ -109,8 +132,26 @@ struct Body {
   MassProperties mass;
   Material material;
   BodyState initial;
-  Course course = {};  ///< of what is held and moves by itself
+  Course course = {};                ///< of what is held and moves by itself
+  std::vector<BodyPart> parts = {};  ///< none: the box is the body
+  /// [m] Of the corners of its parts, body frame, those that may touch a half-space.
+  std::vector<Vec3> partCorners = {};
+
+  static constexpr std::size_t kMostParts = 256;  ///< what fits the key of a pair of boxes in a crowd
+
+  int partCount() const { return parts.empty() ? 1 : static_cast<int>(parts.size()); }
+  /// Of a body of several.
+  const BodyPart& part(int index) const { return parts[static_cast<std::size_t>(index)]; }
+  /// How many corner() knows.
+  int cornerCount() const;
+  /// [m] The smallest size of any box of it, halved.
+  double thinnest() const;
 };
+
+/// Makes that body one of these boxes, with `halfExtents` about `boxCenter`. Of their corners those are left
+/// out that lie within another one, or are listed twice. Each part's centre is given relative to the centre
+/// of mass.
+void setParts(Body& body, std::vector<BodyPart> parts);
 
 /// What walls are where only the motion of a body counts: held, and without extent.
 const Body& bodyOfWalls();
@@ -122,13 +163,27 @@ inline Vec3 corner(const Vec3& halfExtents, int index) {
   return halfExtents.cwiseProduct(Vec3(signOfBit(4), signOfBit(2), signOfBit(1)));
 }
 inline constexpr int kCorners = 8;
-inline Vec3 corner(const Body& body, int index) { return body.boxCenter + corner(body.halfExtents, index); }
-/// [m] From the centre of mass to the box's furthest corner.
+inline int Body::cornerCount() const {
+  return parts.empty() ? kCorners : static_cast<int>(partCorners.size());
+}
+/// Of a body of several boxes, one of `partCorners`.
+inline Vec3 corner(const Body& body, int index) {
+  return body.parts.empty() ? Vec3(body.boxCenter + corner(body.halfExtents, index))
+                            : body.partCorners[static_cast<std::size_t>(index)];
+}
+inline Vec3 BodyPart::corner(int index) const {
+  const Vec3 own = center + careen::corner(halfExtents, index);
+  return turned ? Vec3(bodyFromPart * own) : own;
+}
+/// [m] From the centre of mass to the furthest corner of the box.
 inline double radiusOf(const Body& body) { return (body.boxCenter.cwiseAbs() + body.halfExtents).norm(); }
 
 /// Pose of the box, whose origin is its middle, given the body's; and back.
 Pose boxPose(const Body& body, const Pose& pose);
 Pose bodyPose(const Body& body, const Pose& box);
+/// One of the boxes of a body: the pose of its middle, given that of the body's box; its half sizes [m].
+Pose partPose(const Body& body, int part, const Pose& box);
+const Vec3& partHalfExtents(const Body& body, int part);
 /// [m/s] Velocity of the box's middle, given the body's state; and of the centre of mass, given the other.
 Vec3 boxVelocity(const Body& body, const BodyState& state);
 Vec3 bodyVelocity(const Body& body, const Mat3& worldFromBody, const Vec3& boxVelocity,

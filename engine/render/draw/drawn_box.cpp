@@ -47,22 +47,29 @@ void appendBoxes(std::vector<DrawnBox>& boxes, const World& world, const Stage& 
                  std::span<const Pose> poses, std::span<const Pose> before, double springThickness) {
   const std::size_t begun = boxes.size();
   const std::size_t moment = boxes.empty() ? 0 : boxes.back().moment + 1;
+  std::size_t shown = 0;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    if (!before.empty() && isSame(poses[i], before[i])) {
-      continue;
+    const Body& body = world.bodies[i];
+    const bool isThere = !before.empty() && isSame(poses[i], before[i]);
+    const TriangleMesh* const mesh = meshOf(stage, i);
+    const int count = mesh != nullptr ? 1 : body.partCount();
+    for (int part = 0; part < count; ++part, ++shown) {
+      if (!isThere) {
+        boxes.push_back({.pose = mesh != nullptr ? poses[i] : partPose(body, part, poses[i]),
+                         .halfExtents = mesh != nullptr ? body.halfExtents : partHalfExtents(body, part),
+                         .color = linearFromSrgb(stage.colors[i]),
+                         .marked = body.parts.empty(),
+                         .shown = shown,
+                         .mesh = mesh});
+      }
     }
-    boxes.push_back({.pose = poses[i],
-                     .halfExtents = world.bodies[i].halfExtents,
-                     .color = linearFromSrgb(stage.colors[i]),
-                     .body = i,
-                     .mesh = meshOf(stage, i)});
   }
   for (std::size_t i = 0; i < world.springs.size(); ++i) {
     const Vec3 from = endOf(world.springs[i].from, world, poses);
     const Vec3 to = endOf(world.springs[i].to, world, poses);
     if ((to - from).norm() > 0.1 * springThickness) {
       boxes.push_back(rod(from, to, springThickness));
-      boxes.back().body = world.bodies.size() + i;
+      boxes.back().shown = shown + i;
     }
   }
   std::for_each(boxes.begin() + static_cast<std::ptrdiff_t>(begun), boxes.end(),
@@ -106,11 +113,11 @@ std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::sp
 }
 
 bool haveCopies(std::span<const DrawnBox> boxes) {
-  std::vector<std::size_t> bodies;
-  std::transform(boxes.begin(), boxes.end(), std::back_inserter(bodies),
-                 [](const DrawnBox& box) { return box.body; });
-  std::sort(bodies.begin(), bodies.end());
-  return std::adjacent_find(bodies.begin(), bodies.end()) != bodies.end();
+  std::vector<std::size_t> all;
+  std::transform(boxes.begin(), boxes.end(), std::back_inserter(all),
+                 [](const DrawnBox& box) { return box.shown; });
+  std::sort(all.begin(), all.end());
+  return std::adjacent_find(all.begin(), all.end()) != all.end();
 }
 
 void sortFromEye(std::vector<DrawnBox>& boxes, const Vec3& eye) {

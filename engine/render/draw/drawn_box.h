@@ -10,14 +10,15 @@
 
 namespace careen {
 
-/// One box to draw. Boxes of a run have marks on their faces; springs are boxes without marks.
+/// One box to draw. Boxes of a run have marks on their faces; springs and boxes that are parts of a body have
+/// none.
 struct DrawnBox {
   Pose pose;
   Vec3 halfExtents = Vec3::Zero();  ///< [m]
   Vec3 color = Vec3::Ones();        ///< linear
   bool marked = true;
   Vec3 returned = Vec3::Zero();        ///< [1] part of ambient light that comes back where it keeps light off
-  std::size_t body = 0;                ///< index of the body it shows; of springs, after all bodies
+  std::size_t shown = 0;               ///< which of all boxes of bodies it shows, then which of springs
   std::size_t moment = 0;              ///< of several that are shown at once
   const TriangleMesh* mesh = nullptr;  ///< drawn in its place, if any; the stage owns it
 };
@@ -28,7 +29,7 @@ struct DrawnBox {
 std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::span<const Pose> poses,
                                  double springThickness);
 
-/// Whether a body is shown several times.
+/// Whether any is shown several times.
 bool haveCopies(std::span<const DrawnBox> boxes);
 
 /// Sorts later moments first, and those of one front to back, so that hidden pixels are not shaded, and the

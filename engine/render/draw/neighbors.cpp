@@ -112,7 +112,7 @@ class Surroundings {
 void keepOneOfEachBody(std::vector<Candidate>& found, std::span<const DrawnBox> boxes) {
   std::vector<std::size_t> bodies;
   const auto isAgain = [&](const Candidate& each) {
-    const std::size_t body = boxes[each.box].body;
+    const std::size_t body = boxes[each.box].shown;
     if (std::find(bodies.begin(), bodies.end(), body) != bodies.end()) {
       return true;
     }
@@ -220,7 +220,7 @@ FaceNeighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const Drawn
     if (face.box != nearOf) {
       near.clear();
       cells.around(own.pose.position, [&](std::size_t box) {
-        if (boxes[box].body != own.body &&
+        if (boxes[box].shown != own.shown &&
             (boxes[box].pose.position - own.pose.position).squaredNorm() <= reach * reach) {
           near.push_back(box);
         }

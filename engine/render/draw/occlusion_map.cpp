@@ -59,8 +59,8 @@ std::vector<double> sharesOf(std::span<const DrawnBox> boxes) {
   }
   std::vector<std::vector<std::size_t>> copies;  // of each body
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    copies.resize(std::max(copies.size(), boxes[i].body + 1));
-    copies[boxes[i].body].push_back(i);
+    copies.resize(std::max(copies.size(), boxes[i].shown + 1));
+    copies[boxes[i].shown].push_back(i);
   }
   for (const std::vector<std::size_t>& each : copies) {
     for (const std::size_t a : each) {

@@ -87,16 +87,21 @@ TEST(EventFunctions, ofPairsAreTheirGapAndTheEndOfTheFace) {
   world.bodies.push_back(box("beside", Vec3(0.1, 0.1, 0.1), 1, Vec3(1, 0, 0.1)));
   std::vector<ContactFeature> features = lowerCorners(world, 1);
   for (const ContactFeature& corner : lowerCorners(world, 0)) {
-    features.push_back(
-        {.kind = ContactFeature::Kind::kPointOnFace, .a = 0, .b = 1, .onA = corner.onA, .axisB = 2});
+    features.push_back({.kind = ContactFeature::Kind::kPointOnFace,
+                        .a = 0,
+                        .b = 1,
+                        .boxA = 0,
+                        .boxB = 0,
+                        .onA = corner.onA,
+                        .axisB = 2});
   }
   const Listed stack(world, features);
   ASSERT_EQ(stack.of(EventKind::kOverlap).size(), 1U);
   ASSERT_EQ(stack.of(EventKind::kWithin).size(), 4U);
   EXPECT_NEAR(stack.events.lowest(stack.of(EventKind::kWithin)), 0.03, 1e-10);
-  EXPECT_TRUE(stack.events.coverPair(0, 1));
-  EXPECT_TRUE(stack.events.coverPair(1, 0));
-  EXPECT_FALSE(stack.events.coverPair(0, 2));
+  EXPECT_TRUE(stack.events.coverBoxes({0, 0}, {1, 0}));
+  EXPECT_TRUE(stack.events.coverBoxes({1, 0}, {0, 0}));
+  EXPECT_FALSE(stack.events.coverBoxes({0, 0}, {2, 0}));
 }
 
 }  // namespace

@@ -7,7 +7,9 @@
 namespace careen {
 namespace {
 
-TouchingBody drivenBody(const Body& body, const CoursePart& part) { return {.body = &body, .part = &part}; }
+TouchingBody drivenBody(const Body& body, const CoursePart& part) {
+  return {.body = &body, .drivenBy = &part};
+}
 
 // At any time it is where its part says, as a state and as a motion.
 TEST(TouchingBody, isWhereItIsDriven) {

@@ -244,5 +244,23 @@ TEST(ExactWorldCourse, crowdsSleepWhereNothingMoves) {
   EXPECT_NEAR(run.last(world, 1, 3).pose.position.z(), 0.7, 1e-4);
 }
 
+// A pusher that has already joined a crowd meets what sleeps beside it: both are as far as it takes them.
+TEST(ExactWorldCourse, aPusherInACrowdWakesWhatItMeetsNext) {
+  World world = heavy();
+  world.walls = {wall("floor", Vec3::UnitZ(), 0, 0)};
+  world.walls[0].material.friction = 0.5;
+  world.bodies = {mover("pusher", Vec3(0.1, 0.8, 0.09), Vec3::Zero(),
+                        {.path = {{1, Vec3(-0.5, 0, 0.1)}, {3, Vec3(0.5, 0, 0.1)}}}),
+                  cube("first", Vec3(0, -0.4, 0.1), 0.5), cube("second", Vec3(0.4, 0.4, 0.1), 0.5)};
+  world.bodies[0].course =
+      courseOf({.path = {{1, Vec3::Zero()}, {3, Vec3(1, 0, 0)}}}, {.position = Vec3(-0.5, 0, 0.1)});
+  world.bodies[0].initial = stateOf(world.bodies[0].course.front().at(0));
+  const Recorded run = runInCrowd(world, 4);
+  for (const std::size_t body : {1U, 2U}) {
+    EXPECT_NEAR(run.at(world, body, 2.9).pose.position.x(), 0.45 + 0.2, 1e-3);
+    EXPECT_TRUE(std::holds_alternative<Rest>(run.motions[body].back().second));
+  }
+}
+
 }  // namespace
 }  // namespace careen

@@ -63,8 +63,8 @@ TEST(IslandGroup, seesToContactsOfItsBodies) {
   StartedBodies all(onFloor({cube("a", {0, 0, 0.5}), cube("b", {0, 0, 1.5}, left), cube("c", {9, 0, 0.5})}));
   const std::shared_ptr<IslandGroup> island = all.settled(0).islands.at(0);
   island->begin(Instant(0));
-  EXPECT_TRUE(island->seesTo(0, 1));
-  EXPECT_FALSE(island->seesTo(0, 2));
+  EXPECT_TRUE(island->seesTo(0, 0, {1, 0}));
+  EXPECT_FALSE(island->seesTo(0, 0, {2, 0}));
 }
 
 // The account is told of the energy that sliding takes, and so finds none missing.

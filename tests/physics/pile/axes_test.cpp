@@ -61,8 +61,7 @@ TEST(PileAxes, agreeWithTheCarefulSeparations) {
     EXPECT_LT((axes.cosines - a.axes.transpose() * b.axes).norm(), 1e-15);
     for (int i = 0; i < BoxAxis::kCount; ++i) {
       if (i < 6 || careful.sine((i - 6) / 3, (i - 6) % 3) > 0x1p-6) {
-        EXPECT_NEAR(separationAlong(i, a, a.axes, b, b.axes, a.position - b.position),
-                    careful.separation({i}), 2e-13);
+        EXPECT_NEAR(separationAlong(i, a, b, a.position - b.position), careful.separation({i}), 2e-13);
       }
     }
     byEdges += edge > face ? 1 : 0;
@@ -117,7 +116,7 @@ TEST(GapAbove, isTheGapOrABoundAboveTheLeast) {
     ASSERT_TRUE(axes.find(a, b, kFar, -1, 0));
     const double least = dice.between(-0.2, 0.2);
     for (int first = -1; first < BoxAxis::kCount; ++first) {
-      const double found = gapAbove(least, first, a, a.axes, b, b.axes, a.position - b.position);
+      const double found = gapAboveOfBoxes(least, first, a, b);
       if (axes.separation() > least) {
         EXPECT_GT(found, least);
         EXPECT_LE(found, axes.separation() + 2e-13);
@@ -128,8 +127,7 @@ TEST(GapAbove, isTheGapOrABoundAboveTheLeast) {
       }
     }
     const int best = axes.edgeSeparation > axes.faceSeparation ? axes.edges : axes.face;
-    EXPECT_NEAR(gapAbove(-kFar, best, a, a.axes, b, b.axes, a.position - b.position), axes.separation(),
-                2e-13);
+    EXPECT_NEAR(gapAboveOfBoxes(-kFar, best, a, b), axes.separation(), 2e-13);
   }
   EXPECT_GT(bounds, 1000);
   EXPECT_GT(gaps, 1000);

@@ -86,10 +86,10 @@ TEST(CrowdDepth, isSeenOnTheWay) {
   stages.meet(test::kCrowdStep);
   stages.members[0].position.x() = 0.2;
   stages.depth.findTurns();
-  EXPECT_NEAR(stages.depth.onWay(0, 1, -1), 0.1, 1e-12);
+  EXPECT_NEAR(stages.depth.onWay({.a = 0, .b = 1}), 0.1, 1e-12);
   stages.members[0].position = Vec3(-0.2, 0.4, 0);  // beside it
   stages.depth.findTurns();
-  EXPECT_EQ(stages.depth.onWay(0, 1, -1), 0);
+  EXPECT_EQ(stages.depth.onWay({.a = 0, .b = 1}), 0);
 }
 
 }  // namespace

@@ -84,12 +84,14 @@ TEST(CrowdPath, extentIsThatOfSpheresAndWays) {
 TEST(CrowdPath, cameNearByGapAndWay) {
   Moved moved;
   moved.stages.members[1].path = 0.015;
-  const BoxAt box{.pose = {.position = Vec3(1, 1, 0)}, .halfExtents = Vec3::Constant(0.25)};
+  Body box;
+  box.halfExtents = Vec3::Constant(0.25);
+  const Pose pose{.position = Vec3(1, 1, 0)};
   // The gap is 0.5, the way and the tolerance 0.0153.
-  EXPECT_FALSE(moved.stages.path.cameNear(1, box, 0.48));
-  EXPECT_TRUE(moved.stages.path.cameNear(1, box, 0.49));
+  EXPECT_FALSE(moved.stages.path.cameNear(1, box, pose, 0.48));
+  EXPECT_TRUE(moved.stages.path.cameNear(1, box, pose, 0.49));
   moved.stages.members.ways[1].moved = false;
-  EXPECT_FALSE(moved.stages.path.cameNear(1, box, 0.49));
+  EXPECT_FALSE(moved.stages.path.cameNear(1, box, pose, 0.49));
 }
 
 }  // namespace

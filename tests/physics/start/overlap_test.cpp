@@ -43,7 +43,7 @@ std::vector<PlacedBox> heap(int count, double edge, unsigned seed) {
   return boxes;
 }
 
-double gapOf(const PlacedBox& a, const PlacedBox& b) { return BoxAxes(a.at(), b.at()).gap(); }
+double gapOf(const PlacedBox& a, const PlacedBox& b) { return BoxAxes(a.at(0), b.at(0)).gap(); }
 
 std::vector<PlacedBox> movedTo(std::vector<PlacedBox> boxes, const Parted& parted) {
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -174,7 +174,7 @@ TEST(MoveApart, endsWithoutOverlapInAHeapWhateverTheOrder) {
     const std::vector<PlacedBox> after = movedTo(boxes, parted);
     EXPECT_FALSE(firstOverlap(after));
     for (const PlacedBox& box : after) {
-      EXPECT_FALSE(lowestGap(floor[0], box.at()).overlaps());
+      EXPECT_FALSE(lowestGap(floor[0], box).overlaps());
     }
     std::vector<PlacedBox> reversed(boxes.rbegin(), boxes.rend());
     Parted other = moveApart(reversed, floor);
