@@ -19,7 +19,7 @@ class Curvature {
   Curvature(const CrowdMembers& members, const PileSolver& solver)
       : members_(members), solver_(solver), bends_(members.size()) {
     members_.forEach([&](std::size_t i) {
-      const double spin = members_[i].still() ? 0 : solver_.omega(static_cast<int>(i)).squaredNorm();
+      const double spin = members_[i].stays() ? 0 : solver_.omega(static_cast<int>(i)).squaredNorm();
       bends_[i] =
           0.5 * members_.h * members_.h * members_[i].radius * spin > kStraight * members_.tolerance ? 1 : 0;
     });
