@@ -89,6 +89,9 @@ const std::vector<Measured> kExact = {
     {"exact", "belt", 8.9e-9},
     {"exact", "turntable", 1.7e-4},  // of the one that friction just holds: 12 tolerances after two turns
     {"exact", "braked", 7.7e-13},
+    {"exact", "shaking-table", 8.5e-5},  // 22 tolerances, of the one of μ = .1, which turns back 9 times
+    {"exact", "lift-stops", 1.5e-14},
+    {"exact", "pusher", 6e-9},
     {"exact", "spinning-stop", 2.1e-8},
     {"exact", "overhang", 3.3e-8},
     {"exact", "sliding-spinning", 1.5e-7},

@@ -26,6 +26,9 @@ TEST(OwnMethods, refuseWhatTheyDoNotModel) {
   two.bodies.push_back(box("second", Vec3(0.1, 0.1, 0.1), 1, Vec3(2, 1, 1)));
   World springs = elasticRoom();
   springs.springs.emplace_back();
+  World moved = elasticRoom();
+  moved.bodies.emplace_back();
+  moved.bodies.back().course = courseOf({.path = {}, .velocity = Vec3(1, 0, 0)}, {});
   for (const auto& method : ownMethods()) {
     if (method->name() == "crowd") {
       EXPECT_EQ(method->refuses(two), "asked for joints only");
@@ -35,6 +38,8 @@ TEST(OwnMethods, refuseWhatTheyDoNotModel) {
     }
     EXPECT_EQ(method->refuses(elasticRoom()), "") << method->name();
     EXPECT_EQ(method->refuses(two), method->name() == "exact" ? "" : "no collisions between boxes")
+        << method->name();
+    EXPECT_EQ(method->refuses(moved), method->name() == "exact" ? "" : "no fixed boxes that move")
         << method->name();
     EXPECT_EQ(method->refuses(springs),
               method->name() == "listing1" || method->name() == "exact" ? "" : "no springs, no drag")

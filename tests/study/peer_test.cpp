@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "study/case.h"
 #include "support/physics_worlds.h"
 
 namespace careen {
@@ -132,6 +133,16 @@ TEST(Peer, knowsNeitherSpringsNorDrag) {
   world.springs.clear();
   world.drag.emplace();
   EXPECT_EQ(peer.refuses(world), "no springs, no drag");
+}
+
+// The cases that only exact has.
+TEST(Peer, knowsNothingThatMovesByItself) {
+  const Counter peer;
+  for (const char* const name : {"shaking-table", "lift-stops", "pusher"}) {
+    EXPECT_EQ(peer.refuses(readCase(name).world), "no fixed boxes that move") << name;
+  }
+  EXPECT_EQ(peer.refuses(readCase("belt").world), "no surfaces that move");
+  EXPECT_EQ(peer.refuses(readCase("braked").world), "no gravity that changes");
 }
 
 }  // namespace

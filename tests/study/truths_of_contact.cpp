@@ -1,6 +1,7 @@
 #include "study/truth_case.h"
 #include "support/belt_oracles.h"
 #include "support/contact_oracles.h"
+#include "support/moved_oracles.h"
 #include "support/pivot_oracles.h"
 #include "support/sliding_spin.h"
 
@@ -85,6 +86,34 @@ Boxes goesRound(const QuadScene& scene, Moments times) {
 
 Boxes isBraked(const QuadScene& scene, Moments times) {
   return ofEach(scene, [&](const QuadBox& box) { return oracle::braked(box, scene, times); });
+}
+
+// Of all movable boxes, by the first one, which is what moves.
+template <class PosesOf>
+Boxes ofMoved(const QuadScene& scene, const PosesOf& posesOf) {
+  Boxes boxes;
+  for (std::size_t i = 1; i < scene.boxes.size(); ++i) {
+    boxes.push_back(posesOf(scene.boxes[i], scene.boxes.front()));
+  }
+  return boxes;
+}
+
+Boxes isShaken(const QuadScene& scene, Moments times) {
+  return ofMoved(scene, [&](const QuadBox& box, const QuadBox& table) {
+    return oracle::QuadNewmark(box, table, scene.gravity).poses(times);
+  });
+}
+
+Boxes isLifted(const QuadScene& scene, Moments times) {
+  return ofMoved(scene, [&](const QuadBox& box, const QuadBox& lift) {
+    return oracle::onLift(box, lift, scene.gravity, times);
+  });
+}
+
+Boxes isPushed(const QuadScene& scene, Moments times) {
+  return ofMoved(scene, [&](const QuadBox& box, const QuadBox& plate) {
+    return oracle::QuadPushed(box, plate, scene.gravity, scene.walls.at(0)).poses(times);
+  });
 }
 
 }  // namespace
@@ -200,6 +229,33 @@ std::vector<TruthCase> contactCases() {
            "rests feels it at that moment, and some of it by a hundredth not enough.",
        .source = "closed form: (a - μ g) while it brakes, μ g until it stops",
        .oracle = isBraked},
+      {.name = "shaking-table",
+       .title = "Newmark's block on a shaking table",
+       .whyHard =
+           "N. M. Newmark's block: a table shakes to and fro with up to 9.6 m/s², and friction carries the "
+           "blocks for as long as that is no more than μ g. One is carried always, one by a hundredth not "
+           "quite, and each change between riding and slipping depends on all the earlier ones.",
+       .source = "closed form: A sin ωt while it rides, μ g while it slips; changes at roots",
+       .samples = 16,
+       .oracle = isShaken},
+      {.name = "lift-stops",
+       .title = "A lift that starts and stops at once",
+       .whyHard =
+           "A lift starts at once, stops at once, goes down and stops again: each jump of its speed strikes "
+           "what stands on it or leaves it in the air, and what bounces comes to rest on a floor that moves, "
+           "after infinitely many impacts.",
+       .source = "closed form: parabolas above the lift, e times the speed at each impact",
+       .samples = 32,
+       .oracle = isLifted},
+      {.name = "pusher",
+       .title = "Struck and pushed by a plate",
+       .whyHard =
+           "A plate that goes on evenly meets boxes at rest and boxes that slide away from it. Friction "
+           "of the floor brings them back to it again and again, in ever shorter times, until it pushes "
+           "them.",
+       .source = "closed form: hops before the plate under μ g, e times the speed at each impact",
+       .samples = 16,
+       .oracle = isPushed},
       {.name = "pile",
        .title = "Poured into a pit",
        .whyHard = "128 boxes of 0.4 to 0.6 m are poured into a pit of 4.4 by 4.4 metres: their final "

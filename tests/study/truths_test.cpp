@@ -107,7 +107,7 @@ TEST(Truths, ofSlidingAndSpinningAreThoseOfTheFiles) {
 TEST(Truths, ofContactAreThoseOfTheFiles) {
   expectTheFiles({"incline-slide", "incline-hold", "rocking-block", "rocking-measured", "tip-or-slide",
                   "stack-10", "stack-heavy-100", "stack-heavy-1e6", "row-of-boxes", "overhang", "belt",
-                  "turntable", "braked"});
+                  "turntable", "braked", "shaking-table", "lift-stops", "pusher"});
 }
 
 TEST(Truths, ofPublishedScenesAreThoseOfTheFiles) {

@@ -95,6 +95,11 @@ struct QuadBox {
   QuadVector velocity;
   QuadTurn attitude = {1, 0, 0, 0};
   std::array<Quad, 3> momentum;  // [kg m²/s] angular, body frame
+  // Of a fixed one that moves, besides its velocity: where it is at each time [s], and how it swings.
+  std::vector<std::pair<Quad, QuadVector>> path = {};
+  QuadVector amplitude = QuadVector::Zero();  // [m]
+  Quad rate = 0;                              // [rad/s]
+  Quad phase = 0;
 
   FreeBody<Quad> freeBody() const { return {moments, momentum, attitude}; }
 };

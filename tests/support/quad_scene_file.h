@@ -36,6 +36,29 @@ inline QuadVector vectorIn(const nlohmann::json& object, const char* key) {
   return {Quad(v.at(0).get<double>()), Quad(v.at(1).get<double>()), Quad(v.at(2).get<double>())};
 }
 
+/// Places or vectors from each time on: [[time, x, y, z], …].
+inline std::vector<std::pair<Quad, QuadVector>> pathIn(const nlohmann::json& object) {
+  std::vector<std::pair<Quad, QuadVector>> path;
+  for (const nlohmann::json& each : object.value("path", nlohmann::json::array())) {
+    const nlohmann::json vector = {{"v", {each.at(1), each.at(2), each.at(3)}}};
+    path.emplace_back(Quad(each.at(0).get<double>()), vectorIn(vector, "v"));
+  }
+  return path;
+}
+
+/// Of a fixed box; without turning.
+inline void readMotion(const nlohmann::json& motion, QuadBox& box) {
+  box.velocity = vectorIn(motion, "velocity");
+  box.path = pathIn(motion);
+  if (!box.path.empty()) {
+    box.position = box.path.front().second;
+  }
+  const nlohmann::json swing = motion.value("oscillation", nlohmann::json::object());
+  box.amplitude = vectorIn(swing, "amplitude");
+  box.rate = 2 * kQuadPi * Quad(swing.value("frequency", 0.0));
+  box.phase = swing.value("phase", 0.0);
+}
+
 inline QuadBox boxIn(const nlohmann::json& object) {
   QuadBox box;
   box.name = object.at("name").get<std::string>();
@@ -46,6 +69,9 @@ inline QuadBox boxIn(const nlohmann::json& object) {
   box.fixed = object.value("fixed", false);
   box.position = vectorIn(object, "position");
   box.velocity = vectorIn(object, "velocity");
+  if (object.contains("motion")) {
+    readMotion(object["motion"], box);
+  }
   if (object.contains("orientation")) {
     const nlohmann::json& q = object["orientation"];
     for (std::size_t i = 0; i < 4; ++i) {
@@ -102,10 +128,7 @@ inline QuadScene sceneIn(const std::filesystem::path& path) {
   QuadScene scene;
   scene.duration = file.at("duration").get<double>();
   if (file.contains("/gravity/path"_json_pointer)) {
-    for (const nlohmann::json& each : file["gravity"]["path"]) {
-      const nlohmann::json vector = {{"g", {each.at(1), each.at(2), each.at(3)}}};
-      scene.gravities.emplace_back(Quad(each.at(0).get<double>()), vectorIn(vector, "g"));
-    }
+    scene.gravities = pathIn(file["gravity"]);
     scene.gravity = scene.gravities.front().second;
   } else {
     scene.gravity = vectorIn(file, "gravity");
