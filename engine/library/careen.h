@@ -60,6 +60,21 @@ struct BoxPart {
   Quaternion orientation = {1, 0, 0, 0};  ///< body from part
 };
 
+/// How a fixed box moves by itself; all of it adds up.
+struct Motion {
+  /// [s] and [m] Where its middle is, in place of `position`: straight from point to point, still before the
+  /// first and after the last.
+  std::vector<std::pair<double, Vector>> path = {};
+  Vector velocity = {0, 0, 0};         ///< [m/s] all the time
+  Vector angularVelocity = {0, 0, 0};  ///< [rad/s] world frame, all the time
+  /// [m] What it turns about, in the world at the start; goes along with path and velocity. None: its middle.
+  std::optional<Vector> about = std::nullopt;
+  Vector amplitude = {0, 0, 0};         ///< [m] times sin(2π frequency t + phase)
+  Vector angularAmplitude = {0, 0, 0};  ///< [rad] likewise, along the angular velocity if there is one
+  double frequency = 0;                 ///< [Hz]
+  double phase = 0;                     ///< [rad]
+};
+
 /// A box of a scene that is built in code; keys of scene files have the same names and defaults.
 struct Box {
   std::string name;                       ///< empty: box-0, box-1 …
@@ -83,6 +98,7 @@ struct Box {
   /// are then of its frame's origin; the centre of mass, if `center` is 0, and the inertia, if there is none,
   /// are those of the union of its boxes.
   std::vector<BoxPart> parts = {};
+  std::optional<Motion> motion = std::nullopt;  ///< of a fixed box
 };
 
 /// A plane that keeps boxes on the side that its normal points to.

@@ -26,6 +26,38 @@ void addSurface(const Part& part, Json& json) {
   }
 }
 
+Json pathOf(const std::vector<std::pair<double, Vector>>& path) {
+  Json points = Json::array();
+  for (const auto& [time, vector] : path) {
+    points.push_back({time, vector[0], vector[1], vector[2]});
+  }
+  return points;
+}
+
+Json motionOf(const Motion& motion) {
+  Json json = Json::object();
+  const auto add = [](Json& to, const char* key, const Vector& vector) {
+    if (vector != Vector{}) {
+      to[key] = vector;
+    }
+  };
+  if (!motion.path.empty()) {
+    json["path"] = pathOf(motion.path);
+  }
+  add(json, "velocity", motion.velocity);
+  add(json, "angular_velocity", motion.angularVelocity);
+  if (motion.about) {
+    json["about"] = *motion.about;
+  }
+  if (motion.amplitude != Vector{} || motion.angularAmplitude != Vector{} || motion.frequency != 0 ||
+      motion.phase != 0) {
+    Json& swing = json["oscillation"] = {{"frequency", motion.frequency}, {"phase", motion.phase}};
+    add(swing, "amplitude", motion.amplitude);
+    add(swing, "angular_amplitude", motion.angularAmplitude);
+  }
+  return json;
+}
+
 }  // namespace
 
 Scene::Scene(double duration, Vector gravity) : name_("scene"), built_(true) {
@@ -46,12 +78,8 @@ void Scene::requireBuilt() const {
 
 Scene& Scene::gravity(const std::vector<std::pair<double, Vector>>& path) {
   requireBuilt();
-  Json points = Json::array();
-  for (const auto& [time, gravity] : path) {
-    points.push_back({time, gravity[0], gravity[1], gravity[2]});
-  }
   Json json = Json::parse(text_);
-  json["gravity"] = {{"path", points}};
+  json["gravity"] = {{"path", pathOf(path)}};
   text_ = json.dump();
   return *this;
 }
@@ -80,6 +108,12 @@ Scene& Scene::add(const Box& box) {
     json["center"] = box.center;
   }
   addSurface(box, json);
+  if (box.motion) {
+    json["motion"] = motionOf(*box.motion);
+    if (!box.motion->path.empty() && box.position == Vector{}) {
+      json.erase("position");  // which the path tells
+    }
+  }
   if (!box.name.empty()) {
     json["name"] = box.name;
   }

@@ -182,6 +182,22 @@ class Module(unittest.TestCase):
             told = subprocess.run([sys.executable, "-c", code], timeout=30, check=True, capture_output=True, text=True)
             self.assertEqual(told.stdout, "40\n")
 
+    # A plate of .5 m/s and restitution 1 throws what stands there at 1 m/s, after .4 s, by four corners.
+    def test_fixed_boxes_move(self):
+        plate = {"name": "plate", "half_extents": [0.1, 0.5, 0.5], "position": [-0.4, 0, 0], "fixed": True,
+                 "restitution": 1, "motion": {"velocity": [0.5, 0, 0]}}
+        ball = {"name": "ball", "half_extents": [0.1, 0.1, 0.1], "mass": 1, "position": [0, 0, 0]}
+        scene = {"careen": 1, "duration": 1, "gravity": [0, 0, 0], "boxes": [plate, ball]}
+        run = careen.simulate(scene)
+        states = run.states(1)
+        numpy.testing.assert_allclose(states["position"][:, 0], [0.1, 0.6], atol=1e-14)
+        numpy.testing.assert_allclose(states["velocity"][:, 0], [0.5, 1], atol=1e-14)
+        numpy.testing.assert_allclose(run.impacts["time"], [0.4] * 4, atol=1e-14)
+        with self.assertRaises(careen.SceneError) as caught:
+            careen.simulate({**scene, "boxes": [{**plate, "motion": {}}, ball]})
+        self.assertIn("no motion", str(caught.exception))
+        self.assertIn("motion", careen.simulate.__doc__)
+
     def test_the_audit_tells_kinds_and_breaches(self):
         audit = careen.simulate(SCENES / "zeno.json").audit
         self.assertEqual(audit["breaches"], [])
