@@ -210,9 +210,35 @@ TEST(TrajectoryFile, bringsBackARunOfManyPieces) {
 }
 
 // Format version 11: without changes of gravity, a list before the length and the hash of the last state, and
-// six numbers for each body and wall, how their surfaces move.
+// six numbers for each body and wall, how their surfaces move, and two lists for each body: its boxes, and
+// the parts of its course.
 std::size_t sinceVersion11(const Trajectory& run) {
-  return 8 + 48 * (run.world.bodies.size() + run.world.walls.size());
+  return 8 + 48 * (run.world.bodies.size() + run.world.walls.size()) + 16 * run.world.bodies.size();
+}
+
+TEST(TrajectoryFile, keepsHowFixedBoxesMove) {
+  Trajectory run = driftAndReturn();
+  Body door;
+  door.name = "door";
+  door.halfExtents = Vec3::Ones();
+  door.course = courseOf({.path = {{0, Vec3::Zero()}, {0.5, Vec3::UnitX()}},
+                          .angularVelocity = Vec3(0, 0, 2),
+                          .about = Vec3(50, 1, 0),
+                          .amplitude = Vec3(0, 0.5, 0),
+                          .rate = 3,
+                          .phase = 1},
+                         {.position = Vec3(50, 0, 0)});
+  door.initial = stateOf(door.course.front().at(0));
+  run.world.bodies.push_back(door);
+  run.stage.colors.emplace_back();
+  run.tracks.emplace_back();
+  run.tracks.back().segments = {{.start = 0, .motion = door.course[0].motion},
+                                {.start = 0.5, .motion = door.course[1].motion}};
+  const std::string bytes = encodeTrajectory(run);
+  const Trajectory back = decodeTrajectory(bytes, "run.careen");
+  EXPECT_EQ(back.world.bodies.back().course, door.course);
+  EXPECT_EQ(back.stateHash(), run.stateHash());
+  EXPECT_EQ(encodeTrajectory(back), bytes);
 }
 
 TEST(TrajectoryFile, readsWhatVersion11Wrote) {
@@ -320,8 +346,8 @@ TEST(TrajectoryFile, aMinuteOfABouncingBoxTakesLessThan50kB) {
 
 TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
-  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 12: a newer careen wrote it"),
-                                        std::pair('\3', "3, expected 4 to 12: simulate its scene again")}) {
+  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 14: a newer careen wrote it"),
+                                        std::pair('\3', "3, expected 4 to 14: simulate its scene again")}) {
     bytes[8] = version;
     EXPECT_EQ(messageOf(withRightChecksum(bytes)),
               "run.careen: this trajectory file has format version " + std::string(remedy));
