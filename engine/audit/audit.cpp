@@ -123,6 +123,14 @@ std::vector<double> Auditor::moments() const {
       moments.insert(std::lower_bound(moments.begin(), moments.end(), change.time), change.time);
     }
   }
+  for (const Body& body : run_.world.bodies) {
+    for (const CoursePart& part : body.course) {
+      const auto at = std::lower_bound(moments.begin(), moments.end(), part.from);
+      if (part.from < run_.settings.duration && (at == moments.end() || *at != part.from)) {
+        moments.insert(at, part.from);
+      }
+    }
+  }
   return moments;
 }
 

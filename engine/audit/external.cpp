@@ -145,7 +145,7 @@ void ExternalOf::addTouches(std::size_t member, std::size_t segment, External& e
   }
   external.liesOnImmovable = external.liesOnImmovable || !touches.immovables.empty();
   for (const std::size_t fixed : touches.immovables) {
-    addBelt(run_.world.bodies[fixed].material.surface, Of::kBox, external);
+    addFixed(fixed, time_, external);
   }
   for (const std::size_t wall : touches.walls) {
     addBelt(run_.world.walls[wall].material.surface, Of::kWall, external);
@@ -160,6 +160,18 @@ void ExternalOf::addBelt(const SurfaceMotion& surface, Of of, External& external
   external.hasUnknownBelts = external.hasUnknownBelts || !surface.spin.isZero(0) ||
                              before != surface.velocity || (of == Of::kBox && surface.moves());
   external.belt = surface.velocity;
+}
+
+// As it moves from that moment on.
+void ExternalOf::addFixed(std::size_t fixed, double time, External& external) const {
+  const Body& body = run_.world.bodies[fixed];
+  if (body.course.empty()) {
+    addBelt(body.material.surface, Of::kBox, external);
+    return;
+  }
+  const Driven& motion = partAt(body.course, time).motion;
+  addBelt({.velocity = motion.velocity}, Of::kWall, external);
+  external.hasUnknownBelts = external.hasUnknownBelts || !motion.spin.isZero(0) || motion.swings();
 }
 
 void ExternalOf::addWall(std::size_t wall, double friction, External& external) const {
@@ -235,7 +247,8 @@ ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment)
     for (const std::size_t fixed : immovables_) {
       const Body& other = run_.world.bodies[fixed];
       const double reach = radiusOf(owner) + radiusOf(other) + near;
-      const Pose& where = other.initial.pose;
+      const double time = run_.tracks[body].segments[segment].start + elapsed;
+      const Pose where = other.course.empty() ? other.initial.pose : partAt(other.course, time).at(time).pose;
       if (mayTouch(run_.world, static_cast<int>(body), static_cast<int>(fixed)) &&
           (place.position - where.position).norm() <= reach &&
           separationOf(owner, place, other, where) <= near) {
@@ -276,10 +289,12 @@ void ExternalOf::addImpacts(double time, External& external) {
                                 : world.bodies[static_cast<std::size_t>(impact.b.body())].material;
     const Material pair = touching(world.bodies[a].material, other);
     if (isImmovable(world.bodies[a].mass)) {
-      addBelt(world.bodies[a].material.surface, Of::kBox, external);
+      addFixed(a, impact.time, external);
     }
-    if (impact.b.isWall() || isImmovable(world.bodies[static_cast<std::size_t>(impact.b.body())].mass)) {
-      addBelt(other.surface, impact.b.isWall() ? Of::kWall : Of::kBox, external);
+    if (impact.b.isWall()) {
+      addBelt(other.surface, Of::kWall, external);
+    } else if (const auto b = static_cast<std::size_t>(impact.b.body()); isImmovable(world.bodies[b].mass)) {
+      addFixed(b, impact.time, external);
     }
     external.losesInImpacts = external.losesInImpacts || pair.restitution < 1 || pair.friction > 0;
     const bool isA = group_.holds(a);
@@ -289,6 +304,7 @@ void ExternalOf::addImpacts(double time, External& external) {
       const Vec3 impulse = (isA ? 1 : -1) * impact.impulse * impact.normal;
       const Vec3 arm = impact.point - origin_;
       external.impulse += impulse;
+      external.work += impulse.dot(external.belt.value_or(Vec3::Zero()));
       external.angularImpulse += arm.cross(impulse);
       external.friction += impact.tangential;
       external.angularFriction += impact.tangential * arm.norm();

@@ -25,9 +25,10 @@ struct External {
   bool isStruck = false;        ///< by walls or immovable bodies
   bool losesInImpacts = false;  ///< of restitution or friction
   /// [m/s] Of the surfaces that it touched, if all move alike: 0 if they are still. And whether they do not,
-  /// or turn, or are those of boxes that move: then it is not known what they did.
+  /// or turn or swing, or are those of belts on boxes: then it is not known what they did.
   std::optional<Vec3> belt;
   bool hasUnknownBelts = false;
+  double work = 0;  ///< [J] of recorded impacts with boxes that move evenly, along their normals
 };
 
 /// Follows a group through its run, from moment to moment.
@@ -47,6 +48,7 @@ class ExternalOf {
   void addImpacts(double time, External& external);
   enum class Of { kWall, kBox };
   static void addBelt(const SurfaceMotion& surface, Of of, External& external);
+  void addFixed(std::size_t fixed, double time, External& external) const;
   void addWall(std::size_t wall, double friction, External& external) const;
 
   /// What a body touches while it does not fly.

@@ -302,14 +302,14 @@ void Books::check() {
   }
 }
 
-// A wall whose surface moves does the work of its friction, which is all that acted along it from outside but
-// is known; others may have done any.
+// A wall whose surface moves, or a box that moves evenly, does the work of all that acted along its way from
+// outside but is known; others may have done any.
 void Books::addWorkOfBelts(const Holdings& now, const External& external) {
   const bool isMoved = external.belt && !external.belt->isZero(0);
   if (external.hasUnknownBelts || (isMoved && external.isHeld)) {
     due_.energy = std::max(due_.energy, now.energy);
   } else if (isMoved) {
-    give(external.belt->dot(now.momentum - momentumBefore_ - external.impulse));
+    give(external.work + external.belt->dot(now.momentum - momentumBefore_ - external.impulse));
   }
   momentumBefore_ = now.momentum;
 }
@@ -324,7 +324,7 @@ void Books::spreadBelts(std::vector<External>& externals) const {
   const std::vector<External> known = externals;
   const auto timeOf = [&](std::size_t interval) { return samples_.times()[interval + 1]; };
   const auto spread = [&](std::size_t from, std::size_t to) {
-    if (!isCrowd(timeOf(to)) || std::fabs(timeOf(from) - timeOf(to)) > span_ || !known[from].belt) {
+    if (!isCrowd(timeOf(to))) {
       return;
     }
     External& external = externals[to];
@@ -332,18 +332,15 @@ void Books::spreadBelts(std::vector<External>& externals) const {
                                external.belt.value_or(*known[from].belt) != *known[from].belt;
     external.belt = known[from].belt;
   };
-  std::optional<std::size_t> last;
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    last = known[k].belt ? k : last;
-    if (last) {
-      spread(*last, k);
+  for (std::size_t from = 0; from < known.size(); ++from) {
+    if (!known[from].belt) {
+      continue;
     }
-  }
-  last.reset();
-  for (std::size_t k = known.size(); k-- > 0;) {
-    last = known[k].belt ? k : last;
-    if (last) {
-      spread(*last, k);
+    for (std::size_t to = from; to < known.size() && timeOf(to) - timeOf(from) <= span_; ++to) {
+      spread(from, to);
+    }
+    for (std::size_t to = from; to-- > 0 && timeOf(from) - timeOf(to) <= span_;) {
+      spread(from, to);
     }
   }
 }
@@ -400,7 +397,8 @@ void Books::balanceAngularMomentum(double time, const Holdings& now, const Exter
 
 void Books::balanceEnergy(double time, const Holdings& now, const External& external) {
   const double rounding = kUlps * (largest_.energyScale + largest_.far * largest_.weight);
-  const bool mayFall = takesEnergy_ || external.losesInImpacts || (external.lies && group_.mayLose);
+  const bool mayFall = takesEnergy_ || external.hasUnknownBelts || external.losesInImpacts ||
+                       (external.lies && group_.mayLose);
   const double excess = now.energy - due_.energy;
   report(AuditKind::kEnergyRise, time, lasting(rise_, time, std::max(excess, 0.0)), largest_.energyScale,
          rounding);

@@ -25,6 +25,8 @@ Vec3 centerIn(const SampledStep& step, double elapsed) {
   return stateAt(step, immovable(), elapsed).pose.position;
 }
 
+Vec3 centerIn(const Driven& driven, double elapsed) { return driven.at(elapsed).pose.position; }
+
 bool areFinite(const Pose& pose) { return pose.position.allFinite() && pose.worldFromBody.allFinite(); }
 bool areFinite(const Flight& flight) {
   return flight.position.allFinite() && flight.velocity.allFinite() && flight.acceleration.allFinite() &&
@@ -49,6 +51,7 @@ struct AllFinite {
            std::all_of(step.worldFromBody.begin(), step.worldFromBody.end(), finite);
   }
   bool operator()(const SampledStep& step) const { return areFinite(step.start) && areFinite(step.end); }
+  bool operator()(const Driven& driven) const { return areFinite(stateOf(driven.at(0))); }
 };
 
 }  // namespace

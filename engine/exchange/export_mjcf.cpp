@@ -60,6 +60,9 @@ class MjcfWriter {
     if (hasBelts(world_)) {
       file_.leftOut.emplace_back("how surfaces move along themselves");
     }
+    if (hasCourses(world_)) {
+      file_.leftOut.emplace_back("how fixed boxes move");
+    }
     leaveOutRestitution();
     for (const std::string& words : file_.leftOut) {
       std::string safe = words;  // no comment may hold two hyphens

@@ -63,9 +63,10 @@ void GltfAnimation::addKinks(std::size_t body, std::vector<double>& kinks, std::
   kinks.insert(kinks.end(), impactsOf_[body].begin(), impactsOf_[body].end());
   const Segments& segments = run_.tracks[body].segments;
   for (std::size_t i = 1; i < segments.size(); ++i) {
-    const bool rests = std::holds_alternative<Rest>(segments[i].motion) ||
-                       std::holds_alternative<Rest>(segments[i - 1].motion);
-    (rests ? kinks : seams).push_back(segments[i].start);
+    const bool jumps = std::holds_alternative<Rest>(segments[i].motion) ||
+                       std::holds_alternative<Rest>(segments[i - 1].motion) ||
+                       std::holds_alternative<Driven>(segments[i].motion);
+    (jumps ? kinks : seams).push_back(segments[i].start);
   }
   addTurns(body, seams);
 }

@@ -130,6 +130,18 @@ struct BoundsIn {
     bounds.angularVelocity = {.rate = 4 * bend + 24 * rate * rate, .bend = kUnknown};
     return bounds;
   }
+  MotionBounds operator()(const Driven& driven) const {
+    const MotionRates most = careen::boundsOf(driven);
+    const double w = most.angularSpeed;
+    const double wRate = most.angularAcceleration;
+    const double jerk = driven.rate * driven.rate * driven.rate * driven.amplitude.norm() +
+                        (w * w * w + 3 * w * wRate + driven.rate * wRate) * driven.arm.norm();
+    return {.place = {.rate = kOfRounding * most.speed, .bend = most.acceleration},
+            .speed = kOfRounding * most.speed,
+            .velocity = {.rate = kOfRounding * most.acceleration, .bend = jerk},
+            .spin = kOfRounding * w,
+            .angularVelocity = {.rate = kOfRounding * wRate, .bend = driven.rate * wRate}};
+  }
 };
 
 struct BoundsAlong {
@@ -161,6 +173,10 @@ struct BoundsAlong {
         std::fabs(direction.dot(step.start.velocity)) + std::fabs(direction.dot(step.end.velocity));
     return {.rate = 1.5 * way / step.duration + speeds,
             .bend = (6 * way / step.duration + 4 * speeds) / step.duration};
+  }
+  RateBounds operator()(const Driven& driven) const {
+    const MotionRates most = careen::boundsOf(driven);
+    return {.rate = kOfRounding * most.speed, .bend = kOfRounding * most.acceleration};
   }
 };
 

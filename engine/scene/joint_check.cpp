@@ -67,6 +67,14 @@ class Connecting {
                  joint_.to.body ? "a joint from a box to itself" : "a joint from the world to the world",
                  "two ends that can move apart");
     }
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::optional<int>& body = k == 0 ? joint_.from.body : joint_.to.body;
+      if (body && !box(*body).course.empty()) {
+        tree_.fail(between.children[k].offset,
+                   "a joint to box " + inQuotes(box(*body).name) + ", which has a motion",
+                   "one to a box without, or to the world");
+      }
+    }
     const auto isHeld = [this](const std::optional<int>& body) { return !body || box(*body).fixed; };
     if (isHeld(joint_.from.body) && isHeld(joint_.to.body)) {
       tree_.fail(between.offset, "a joint whose ends cannot move", "a box that is not fixed");

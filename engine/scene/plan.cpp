@@ -218,6 +218,13 @@ PlanItem belts(const Scene& scene, const Needs& needs) {
                               : modelled("belts", counted(count, "surface that moves", "surfaces that move"));
 }
 
+PlanItem courses(const Scene& scene) {
+  const auto count = static_cast<std::size_t>(std::count_if(
+      scene.boxes.begin(), scene.boxes.end(), [](const SceneBox& box) { return !box.course.empty(); }));
+  return count == 0 ? leftOut("motions", "no fixed box moves by itself")
+                    : modelled("motions", counted(count, "fixed box that moves", "fixed boxes that move"));
+}
+
 PlanItem resting(const Scene& scene, const Needs& needs) {
   if (!needs.collides) {
     return leftOut("resting", noCollision(scene));
@@ -250,6 +257,11 @@ Body bodyOf(const SceneBox& box, const Material& material) {
       parts.push_back(part.seenFrom(box.center));
     }
     setParts(body, std::move(parts));
+  }
+  if (!box.course.empty()) {
+    body.course = box.course;
+    body.initial = stateOf(box.course.front().at(0));
+    return body;
   }
   body.initial.pose = bodyPose(body, box.pose);
   body.initial.velocity = bodyVelocity(body, box.pose.worldFromBody, box.velocity, box.angularVelocity);
@@ -296,7 +308,7 @@ Plan plan(const Scene& scene) {
            joints(scene, "joints", "joint", [](const Joint& joint) { return !isRope(joint); }),
            joints(scene, "limits", "joint", isLimited), joints(scene, "ropes", "rope", isRope), motors(scene),
            boxWall(needs), boxBox(scene, needs), restitution(scene, needs), friction(scene, needs),
-           belts(scene, needs), resting(scene, needs)}};
+           belts(scene, needs), courses(scene), resting(scene, needs)}};
 }
 
 World assemble(const Scene& scene, const Plan& plan) {
@@ -313,6 +325,9 @@ World assemble(const Scene& scene, const Plan& plan) {
   }
   if (plan.models("belts")) {
     requireMethod(scene, &MethodTraits::belts, "surfaces that move");
+  }
+  if (plan.models("motions")) {
+    requireMethod(scene, &MethodTraits::belts, "fixed boxes that move");
   }
   if (!scene.gravityChanges.empty()) {
     requireMethod(scene, &MethodTraits::gravityChanges, "gravity that changes");

@@ -38,6 +38,7 @@ struct SceneBox {
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s] world frame
   Material material;
   bool fixed = false;
+  Course course;  ///< of one that is fixed: how it moves by itself; `pose` is that at the start
   Color color;
 };
 

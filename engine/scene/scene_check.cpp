@@ -168,6 +168,48 @@ void checkFixed(const JsonTree& tree, const Scene& scene) {
   }
 }
 
+// By itself moves only what nothing else does, and what a run can follow.
+void checkMotions(const JsonTree& tree, const Scene& scene) {
+  constexpr double kMostTurns = 1e12;  // [rad] of phases in a run: beyond, doubles do not tell them
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    const JsonNode& node = elementOf(tree, "boxes", i);
+    const JsonNode* const motion = node.find("motion");
+    if (motion == nullptr) {
+      continue;
+    }
+    const std::string name = inQuotes(scene.boxes[i].name);
+    if (!scene.boxes[i].fixed) {
+      tree.fail(motion->offset, "motion for box " + name + ", which is not fixed",
+                "it for fixed boxes only: others move as forces make them");
+    }
+    for (const char* const key : {"surface_velocity", "surface_spin"}) {
+      if (const JsonNode* const surface = node.find(key)) {
+        tree.fail(surface->offset, std::string(key) + " for box " + name + ", which has a motion",
+                  "one of them");
+      }
+    }
+    const MotionRates rates = boundsOf(scene.boxes[i].course.front().motion);
+    const double turning = std::max(rates.angularSpeed, scene.boxes[i].course.front().motion.rate);
+    if (turning * scene.settings.duration > kMostTurns) {
+      tree.fail(motion->offset,
+                "a motion of box " + name + " that turns or swings by " +
+                    brief(turning * scene.settings.duration) + " rad in the run",
+                "1e12 rad or less");
+    }
+  }
+}
+
+// Joints and springs are of what is still or moved by forces.
+void checkUnmoved(const JsonTree& tree, const Scene& scene, const std::optional<int>& body,
+                  const JsonNode& end, const char* what) {
+  if (body && !scene.boxes[static_cast<std::size_t>(*body)].course.empty()) {
+    tree.fail(end.offset,
+              std::string(what) + " to box " + inQuotes(scene.boxes[static_cast<std::size_t>(*body)].name) +
+                  ", which has a motion",
+              "one to a box without, or to the world");
+  }
+}
+
 // Along them, if they are walls; of boxes, only of those that are fixed: their faces leave out what is not.
 void checkSurfaces(const JsonTree& tree, const Scene& scene) {
   constexpr double kAlong = 1e-6;
@@ -206,6 +248,8 @@ void connectSprings(const JsonTree& tree, const BoxNames& boxes, Scene& scene) {
     Spring& spring = scene.springs[i];
     spring.from.body = bodyAt(tree, boxes, *node.find("from"));
     spring.to.body = bodyAt(tree, boxes, *node.find("to"));
+    checkUnmoved(tree, scene, spring.from.body, *node.find("from"), "a spring");
+    checkUnmoved(tree, scene, spring.to.body, *node.find("to"), "a spring");
     if (spring.from.body == spring.to.body) {
       tree.fail(node.find("to")->offset,
                 spring.to.body ? "a spring from a box to itself" : "a spring from the world to the world",
@@ -261,6 +305,7 @@ void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   takeDrawnMeshes(tree, scene);
   checkFixed(tree, scene);
   checkSurfaces(tree, scene);
+  checkMotions(tree, scene);
   const BoxNames boxes(scene);
   connectSprings(tree, boxes, scene);
   connectJoints(tree, boxes, scene);

@@ -10,6 +10,7 @@
 #include "scene/film_shape.h"
 #include "scene/joint_shape.h"
 #include "scene/json_shape.h"
+#include "scene/motion_shape.h"
 #include "scene/parts_shape.h"
 #include "scene/union_moments.h"
 
@@ -114,10 +115,26 @@ constexpr std::array<Color, 6> kPalette{{{0xc8, 0x55, 0x3d},
                                          {0xd9, 0x7b, 0x41}}};
 
 SceneBox readBox(const JsonValue& value, std::size_t index) {
-  const JsonObject object =
-      value.object({"name", "half_extents", "parts", "mass", "density", "mass_from", "draw", "inertia",
-                    "center", "position", "orientation", "velocity", "angular_velocity", "restitution",
-                    "friction", "fixed", "color", "surface_velocity", "surface_spin"});
+  const JsonObject object = value.object({"name",
+                                          "half_extents",
+                                          "parts",
+                                          "mass",
+                                          "density",
+                                          "mass_from",
+                                          "draw",
+                                          "inertia",
+                                          "center",
+                                          "position",
+                                          "orientation",
+                                          "velocity",
+                                          "angular_velocity",
+                                          "restitution",
+                                          "friction",
+                                          "fixed",
+                                          "color",
+                                          "surface_velocity",
+                                          "surface_spin",
+                                          "motion"});
   SceneBox box;
   box.name = object.name("box-" + std::to_string(index));
   SolidMoments solid;  // of the union of its parts
@@ -161,6 +178,10 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
   box.pose.position = object.vector("position", anyNumber("m"));
   if (const std::optional<JsonValue> orientation = object.find("orientation")) {
     box.pose.worldFromBody = readOrientation(*orientation);
+  }
+  if (const std::optional<JsonValue> motion = object.find("motion")) {
+    box.course = readMotion(*motion, object.find("position"), box.pose);
+    box.pose = box.course.front().at(0).pose;
   }
   box.velocity = object.vector("velocity", anyNumber("m/s"));
   box.angularVelocity = object.vector("angular_velocity", anyNumber("rad/s"));

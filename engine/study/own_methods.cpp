@@ -44,6 +44,9 @@ class OwnMethod : public Contestant {
     if (!traits_.gravityChanges && !world.gravityChanges.empty()) {
       return "no gravity that changes";
     }
+    if (!traits_.belts && hasCourses(world)) {
+      return "no fixed boxes that move";
+    }
     if (!traits_.belts && hasBelts(world)) {
       return "no surfaces that move";
     }

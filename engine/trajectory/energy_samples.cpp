@@ -23,6 +23,9 @@ EnergyShares energySharesOf(const World& world, std::span<const BodyState> state
   for (std::size_t body = 0; body < states.size(); ++body) {
     const MassProperties& mass = world.bodies[body].mass;
     const BodyState& state = states[body];
+    if (isImmovable(mass)) {
+      continue;
+    }
     shares.translation += 0.5 * mass.mass * state.velocity.squaredNorm();
     shares.rotation += 0.5 * dot(angularVelocity(mass, state), state.angularMomentum);
     shares.gravity -= mass.mass * dot(gravity, state.pose.position);
@@ -76,6 +79,9 @@ RunEnergies EnergySamples::at(double time) {
   now.remaining = atStart_ + now.motors + now.changes - now.shares.sum() - now.lost.sum();
   for (std::size_t body = 0; body < states.size(); ++body) {
     const BodyState& state = states[body];
+    if (isImmovable(run_.world.bodies[body].mass)) {
+      continue;
+    }
     const Vec3 momentum = run_.world.bodies[body].mass.mass * state.velocity;
     now.momentum += momentum;
     now.angularMomentum += state.angularMomentum + state.pose.position.cross(momentum);

@@ -18,7 +18,7 @@ constexpr double kClosed = 4;
 constexpr double kClosedInCrowds = 2;
 
 /// [1] Rounding of the bend of a step's place, and what of the loads it may amount to.
-constexpr double kRounding = 0x1p-46;
+constexpr double kOfRounding = 0x1p-46;
 constexpr double kRounded = 0x1p-10;
 /// Steps looked at beside one that is too short.
 constexpr std::size_t kBeside = 8;
@@ -131,7 +131,7 @@ MomentumRates ForceSamples::ratesInContact(std::size_t body, std::size_t place, 
     }
     const MomentumRates rates = momentumRatesAt(*step, mass, moment - segment.start);
     const double rounding =
-        kRounding * mass.mass * step->position[0].norm() / (step->duration * step->duration);
+        kOfRounding * mass.mass * step->position[0].norm() / (step->duration * step->duration);
     return rounding <= kRounded * (load > 0 ? load : rates.linear.norm()) ? std::optional(rates)
                                                                           : std::nullopt;
   };

@@ -76,6 +76,10 @@ class Giving {
   }
 
   Trajectory run() {
+    if (hasCourses(run_.world)) {
+      throw InputError(table_.name +
+                       ": its scene has fixed boxes that move; expected one whose fixed boxes are still");
+    }
     gather();
     setDuration();
     run_.tracks.resize(bodies().size());

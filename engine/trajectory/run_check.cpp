@@ -44,6 +44,11 @@ bool isSound(const BodyState& state) {
   return state.pose.position.allFinite() && state.velocity.allFinite() && state.angularMomentum.allFinite() &&
          isRotation(state.pose.worldFromBody);
 }
+bool isSound(const Driven& driven) {
+  return driven.pivot.allFinite() && driven.arm.allFinite() && isRotation(driven.worldFromBody) &&
+         driven.velocity.allFinite() && driven.spin.allFinite() && driven.amplitude.allFinite() &&
+         driven.swing.allFinite() && isNotNegative(driven.rate) && std::isfinite(driven.phase);
+}
 bool isWithin(int index, std::size_t size) { return index >= 0 && static_cast<std::size_t>(index) < size; }
 
 // ---- Motions: finite numbers, and a state at any time.
@@ -79,6 +84,7 @@ struct Soundness {
   bool operator()(const SampledStep& step) const {
     return isPositive(step.duration) && isSound(step.start) && isSound(step.end);
   }
+  bool operator()(const Driven& driven) const { return isSound(driven); }
 };
 
 void checkTrack(const Track& track, const std::string& name, const RunSettings& settings) {
@@ -150,14 +156,26 @@ void checkMaterial(const Material& material, const std::string& owner) {
           "a surface whose motion is not finite", owner);
 }
 
+void checkCourse(const Course& course, const std::string& owner) {
+  double before = 0;
+  for (const CoursePart& part : course) {
+    require(isSound(part.motion), "a motion of its own that is none", owner);
+    require(&part == course.data() ? part.from == 0 : part.from > before && std::isfinite(part.from),
+            "parts of its motion out of order", owner);
+    before = part.from;
+  }
+}
+
 void checkBody(const Body& body) {
   const std::string owner = "a body '" + body.name + "'";
   require(std::all_of(body.halfExtents.begin(), body.halfExtents.end(), isPositive),
           "half extents that are not positive numbers", owner);
   if (isImmovable(body.mass)) {
     require(body.mass == immovable(), "a mass though it cannot be moved", owner);
+    checkCourse(body.course, owner);
   } else {
     require(isPositive(body.mass.mass), "a mass that is not positive", owner);
+    require(body.course.empty(), "a motion of its own though it can be moved", owner);
     MassProperties along = body.mass;
     along.turned = false;
     along.bodyFromPrincipal = Mat3::Identity();

@@ -20,7 +20,7 @@ namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kFileMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 13;
+constexpr std::uint64_t kVersion = 14;
 constexpr std::uint64_t kVersionWithoutCrowds = 4;  // the oldest that is read
 constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
@@ -30,6 +30,7 @@ constexpr std::uint64_t kVersionWithoutJoints = 9;
 constexpr std::uint64_t kVersionWithoutGrips = 10;
 constexpr std::uint64_t kVersionOfOneGravity = 11;  // and of surfaces that are still
 constexpr std::uint64_t kVersionOfOneBox = 12;      // for each body
+constexpr std::uint64_t kVersionWithoutCourses = 13;
 
 // A run since format version 9.
 template <class Archive>
@@ -95,6 +96,11 @@ void visitRecord(Archive& archive, Visited<Archive, Trajectory> run, std::uint64
   if (version > kVersionOfOneBox) {
     for (auto& body : run.world.bodies) {
       visitParts(archive, body);
+    }
+  }
+  if (version > kVersionWithoutCourses) {
+    for (auto& body : run.world.bodies) {
+      visitAll(archive, body.course);
     }
   }
 }

@@ -118,6 +118,34 @@ void visit(Archive& archive, Visited<Archive, ContactStep> step) {
 }
 
 template <class Archive>
+void visit(Archive& archive, Visited<Archive, Mat3> matrix) {
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      archive.visit(matrix(row, column));
+    }
+  }
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, Driven> driven) {
+  visit(archive, driven.pivot);
+  visit(archive, driven.arm);
+  visit(archive, driven.worldFromBody);
+  visit(archive, driven.velocity);
+  visit(archive, driven.spin);
+  visit(archive, driven.amplitude);
+  visit(archive, driven.swing);
+  archive.visit(driven.rate);
+  archive.visit(driven.phase);
+}
+
+template <class Archive>
+void visit(Archive& archive, Visited<Archive, CoursePart> part) {
+  archive.visit(part.from);
+  visit(archive, part.motion);
+}
+
+template <class Archive>
 void visit(Archive& archive, Visited<Archive, MassProperties> mass) {
   archive.visit(mass.mass);
   archive.visit(mass.inverseMass);

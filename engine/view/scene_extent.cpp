@@ -20,6 +20,10 @@ bool isBehindAWall(const Stage& stage, const Vec3& point) {
 
 void includeFlight(Extent& extent, const RunSetup& setup, const Body& box) {
   const double radius = radiusOf(box);
+  for (int sample = 0; sample <= kSamples && !box.course.empty(); ++sample) {
+    const double time = setup.settings.duration * sample / kSamples;
+    include(extent, partAt(box.course, time).at(time).pose.position, radius);
+  }
   Vec3 fallen = Vec3::Zero();
   Vec3 gained = Vec3::Zero();  // [m/s]
   double before = 0;

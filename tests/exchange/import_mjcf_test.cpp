@@ -132,9 +132,11 @@ TEST(ImportMjcf, whatExportWritesComesBack) {
       EXPECT_LE((a.initial.pose.position - b.initial.pose.position).norm(),
                 first.joints.empty() && isOne ? 0 : 1e-15);
       turned = std::max(turned, (a.initial.pose.worldFromBody - b.initial.pose.worldFromBody).norm());
-      EXPECT_LT((a.initial.velocity - b.initial.velocity).norm(), 1e-15);
-      EXPECT_LT((angularVelocity(a.mass, a.initial) - angularVelocity(b.mass, b.initial)).norm(),
-                5e-15 * (1 + angularVelocity(a.mass, a.initial).norm()));
+      if (a.course.empty()) {  // how fixed boxes move is left out
+        EXPECT_LT((a.initial.velocity - b.initial.velocity).norm(), 1e-15);
+        EXPECT_LT((angularVelocity(a.mass, a.initial) - angularVelocity(b.mass, b.initial)).norm(),
+                  5e-15 * (1 + angularVelocity(a.mass, a.initial).norm()));
+      }
       EXPECT_NEAR(a.material.friction, b.material.friction, 1e-15);
       EXPECT_EQ(trip.first.boxes[i].color.red, trip.second.boxes[i].color.red);
       EXPECT_EQ(trip.first.boxes[i].color.blue, trip.second.boxes[i].color.blue);
@@ -150,7 +152,7 @@ TEST(ImportMjcf, whatExportWritesComesBack) {
       EXPECT_EQ(first.springs[i].restLength, second.springs[i].restLength);
     }
   }
-  EXPECT_EQ(scenes, 25U);
+  EXPECT_EQ(scenes, 26U);
   std::cout << "attitudes " << turned << '\n';
   EXPECT_LT(turned, 2e-15);
   std::cout << joints.count << " joints, places " << joints.place << " coordinates " << joints.coordinate

@@ -366,6 +366,20 @@ void addSurface(const SurfaceMotion& surface, const Kinematics& a, ContactState&
   state.slipBias -= surface.spin.cross(velocity) - dot(state.normal, all) * state.normalRate;
 }
 
+void addDriven(const Kinematics& a, const Kinematics& b, ContactState& state) {
+  const auto add = [&](const Kinematics& body, const Vec3& arm, double sign) {
+    if (body.isDriven) {
+      state.given -= sign * body.velocityAt(arm);
+      const Vec3 acceleration = sign * body.accelerationAt(arm);
+      state.centripetal += acceleration;
+      state.gapBias += dot(state.normal, acceleration);
+      state.slipBias += acceleration;
+    }
+  };
+  add(a, state.armA, 1);
+  add(b, state.armB, -1);
+}
+
 }  // namespace
 
 TouchingShape shapeOf(const Body& body, int index) {
@@ -403,6 +417,9 @@ ContactState contactState(const ContactFeature& feature, const Kinematics& a, To
   }
   if (feature.material.surface.moves()) {
     addSurface(feature.material.surface, a, state);
+  }
+  if (a.isDriven || b.isDriven) {
+    addDriven(a, b, state);
   }
   return state;
 }

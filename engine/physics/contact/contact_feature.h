@@ -10,16 +10,10 @@
 #include "physics/geometry/separating_axes.h"
 #include "physics/solver/contact_rows.h"
 #include "physics/world/body.h"
+#include "physics/world/kinematics.h"
 #include "physics/world/world.h"
 
 namespace careen {
-
-/// A body's motion at one moment, world frame.
-struct Kinematics {
-  Pose pose;
-  Vec3 velocity = Vec3::Zero();         ///< [m/s] of the centre of mass
-  Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s]
-};
 
 /// Which of a joint's conditions a feature is.
 enum class JointPart : unsigned char {
@@ -91,21 +85,24 @@ struct ContactFeature {
   }
 };
 
-/// A feature at one moment. Its gap d and its slip change with accelerations v̇ and ω̇ of both sides:
+/// A feature at one moment. Its gap d and its slip change with accelerations v̇ and ω̇ of both sides, which of
+/// what is driven are among the biases:
 ///   d̈ = n·(v̇_a + ω̇_a×armA − v̇_b − ω̇_b×armB) + gapBias,   d(slip)/dt = the same without n + slipBias,
 ///   gapBias = n·centripetal + 2 ṅ·slip.
 struct ContactState {
-  Vec3 normal = Vec3::UnitZ();      ///< [1] unit, from b to a
-  Vec3 armA = Vec3::Zero();         ///< [m] world, from a's centre of mass to the contact
-  Vec3 armB = Vec3::Zero();         ///< [m] likewise from b's
-  double gap = 0;                   ///< [m]
-  double rate = 0;                  ///< [m/s] of the gap
-  Vec3 slip = Vec3::Zero();         ///< [m/s] tangential velocity of a relative to b's surface
-  Vec3 surface = Vec3::Zero();      ///< [m/s] tangential, of b's surface relative to b
-  double gapBias = 0;               ///< [m/s²]
-  Vec3 normalRate = Vec3::Zero();   ///< [1/s]
-  Vec3 centripetal = Vec3::Zero();  ///< [m/s²] of the two points relative to each other, ω×(ω×arm)
-  Vec3 slipBias = Vec3::Zero();     ///< [m/s²]
+  Vec3 normal = Vec3::UnitZ();     ///< [1] unit, from b to a
+  Vec3 armA = Vec3::Zero();        ///< [m] world, from a's centre of mass to the contact
+  Vec3 armB = Vec3::Zero();        ///< [m] likewise from b's
+  double gap = 0;                  ///< [m]
+  double rate = 0;                 ///< [m/s] of the gap
+  Vec3 slip = Vec3::Zero();        ///< [m/s] tangential velocity of a relative to b's surface
+  Vec3 surface = Vec3::Zero();     ///< [m/s] tangential, of b's surface relative to b
+  Vec3 given = Vec3::Zero();       ///< [m/s] of b less that of a, as far as they are driven
+  double gapBias = 0;              ///< [m/s²]
+  Vec3 normalRate = Vec3::Zero();  ///< [1/s]
+  /// [m/s²] Of the two points relative to each other: ω×(ω×arm), and what is driven.
+  Vec3 centripetal = Vec3::Zero();
+  Vec3 slipBias = Vec3::Zero();  ///< [m/s²]
   /// [m] How far the contact is past the end of its face or edge, negative within. kInCone: also how far
   /// apart its points are sideways, and how far its normal has left the cone, at the smaller box's half
   /// diagonal.
@@ -126,9 +123,11 @@ struct ContactState {
     return rows ? rows->b : pointSide(frame.axes(), armB, -1);
   }
 
-  /// [m/s] What velocities along its rows are to be, in that frame of its normal: of a relative to b itself.
+  /// [m/s] What velocities along its rows are to be, in that frame of its normal: of those of a and b that
+  /// can be moved.
   ContactProblem::Triple target(const ContactFrame& frame) const {
-    return {kept, dot(surface, frame.tangent1), dot(surface, frame.tangent2)};
+    const Vec3 aim = surface + given;
+    return {kept + dot(frame.normal, given), dot(aim, frame.tangent1), dot(aim, frame.tangent2)};
   }
   /// [m/s] of a relative to b's surface.
   Vec3 velocity() const { return slip + rate * normal; }

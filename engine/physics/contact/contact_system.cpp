@@ -39,10 +39,11 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
       kinematics_(bodies_.size()),
       states_(features_.size()),
       pushing_(features_.size()) {
-  pull_ = world.gravity.norm();
+  pull_ = std::max(world.gravity.norm(), drivenAcceleration(bodies_));
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TouchingBody& each = bodies_[i];
     places_.push_back(each.isHeld() ? kHeld : movers_.size());
+    isDriven_ = isDriven_ || each.isDriven();
     kinematics_[i].pose = {each.position, each.worldFromBody.toRotationMatrix()};
     if (!each.isHeld()) {
       movers_.push_back(i);
@@ -109,6 +110,11 @@ std::vector<double> ContactSystem::pack() const {
     setThree(y, m * kNumbers + 7, body.velocity);
     setThree(y, m * kNumbers + 10, body.angularVelocityBody);
   }
+  if (isDriven_) {
+    y.push_back(std::find_if(bodies_.begin(), bodies_.end(), [](const TouchingBody& body) {
+                  return body.isDriven();
+                })->time);
+  }
   return y;
 }
 
@@ -120,6 +126,11 @@ void ContactSystem::unpack(std::span<const double> y) {
     body.velocity = threeAt(y, m * kNumbers + 7);
     body.angularVelocityBody = threeAt(y, m * kNumbers + 10);
   }
+  for (TouchingBody& body : bodies_) {
+    if (body.isDriven()) {
+      body = drivenAt(body, y.back());
+    }
+  }
 }
 
 void ContactSystem::look(std::span<const double> y) {
@@ -129,6 +140,11 @@ void ContactSystem::look(std::span<const double> y) {
     at.pose.worldFromBody = quatAt(y, m * kNumbers + 3).normalized().toRotationMatrix();
     at.velocity = threeAt(y, m * kNumbers + 7);
     at.angularVelocity = at.pose.worldFromBody * threeAt(y, m * kNumbers + 10);
+  }
+  for (std::size_t i = 0; isDriven_ && i < bodies_.size(); ++i) {
+    if (bodies_[i].isDriven()) {
+      kinematics_[i] = bodies_[i].drivenBy->at(y.back());
+    }
   }
   for (std::size_t c = 0; c < features_.size(); ++c) {
     pushing_[c] = pushes(c) ? 1 : 0;
@@ -269,6 +285,9 @@ bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
     setQuat(dy, at + 3, Quat(0.5 * turning.w(), 0.5 * turning.x(), 0.5 * turning.y(), 0.5 * turning.z()));
     setThree(dy, at + 7, threeAt(forces_.accelerations(), m * kSix));
     setThree(dy, at + 10, angularOf(forces_.accelerations(), m));
+  }
+  if (isDriven_) {
+    dy.back() = 1;
   }
   return found;
 }

@@ -9,52 +9,10 @@
 #include "physics/contact/contact_forces.h"
 #include "physics/contact/group_momentum.h"
 #include "physics/contact/manifold_normals.h"
+#include "physics/contact/touching_body.h"
 #include "physics/world/world.h"
 
 namespace careen {
-
-/// A body of an island of touching bodies: a box or a half-space.
-struct TouchingBody {
-  const Body* body = nullptr;
-  const Wall* halfSpace = nullptr;  ///< its shape; null: the body's box
-  int index = 0;                    ///< of the body in the world
-  Vec3 position = Vec3::Zero();
-  Quat worldFromBody = Quat::Identity();
-  Vec3 velocity = Vec3::Zero();             ///< [m/s]
-  Vec3 angularVelocityBody = Vec3::Zero();  ///< [rad/s] body frame
-
-  bool isHeld() const { return isImmovable(body->mass); }
-  bool isBox() const { return halfSpace == nullptr; }
-  bool isNowhere() const { return halfSpace == &nowhere(); }
-  /// Of a half-space that, else one of its boxes.
-  TouchingShape shape(int box) const {
-    return isBox() ? shapeOf(*body, box)
-                   : TouchingShape{
-                         .halfExtents = body->halfExtents, .center = body->boxCenter, .halfSpace = halfSpace};
-  }
-  const Material& material() const { return isBox() ? body->material : halfSpace->material; }
-  BodyState state() const {
-    const Mat3 columns = worldFromBody.toRotationMatrix();
-    return {.pose = {.position = position, .worldFromBody = columns},
-            .velocity = velocity,
-            .angularMomentum = columns * body->mass.inertiaTimes(angularVelocityBody)};
-  }
-  Kinematics kinematics() const {
-    const Mat3 columns = worldFromBody.toRotationMatrix();
-    return {
-        .pose = {position, columns}, .velocity = velocity, .angularVelocity = columns * angularVelocityBody};
-  }
-};
-inline TouchingBody touchingBody(const Wall& wall) { return {.body = &bodyOfWalls(), .halfSpace = &wall}; }
-
-/// How many of a group are boxes: half-spaces come after them.
-inline std::size_t boxesOf(std::span<const TouchingBody> bodies) {
-  std::size_t boxes = bodies.size();
-  while (boxes > 0 && !bodies[boxes - 1].isBox()) {
-    --boxes;
-  }
-  return boxes;
-}
 
 /// Calls visit(feature, half-space) for the corners of a box, if it is not held, at those half-spaces of its
 /// group for which isNear(half-space).
@@ -78,6 +36,7 @@ void forCorners(std::span<const TouchingBody> bodies, std::size_t box, const IsN
 /// contact forces that ContactForces finds.
 ///
 /// A state y has 13 numbers per movable body: position, quaternion w x y z, velocity, ω in the body's frame.
+/// Where some are driven it has one more, at its end: the time [s], on which these depend.
 class ContactSystem {
  public:
   using Mode = ContactForces::Mode;
@@ -94,6 +53,8 @@ class ContactSystem {
                 std::span<const ContactFeature> joints = {});
 
   const std::vector<TouchingBody>& bodies() const { return bodies_; }
+  /// Whether any of them is driven.
+  bool isDriven() const { return isDriven_; }
   const std::vector<ContactFeature>& features() const { return features_; }
   /// Ends of joints that are open, as slack ropes.
   const std::vector<ContactFeature>& openEnds() const { return openEnds_; }
@@ -186,6 +147,7 @@ class ContactSystem {
   double restSpeed_ = 0;
   double radius_ = 0;
   double pull_ = 0;
+  bool isDriven_ = false;
 };
 
 }  // namespace careen

@@ -161,7 +161,10 @@ double EventLocator::deepMomentOf(std::size_t contact) const {
   const auto b = static_cast<std::size_t>(feature.b);
   const std::vector<TouchingBody>& bodies = system_.bodies();
   const auto motionOf = [&](std::size_t i) {
-    return bodies[i].isHeld() ? Motion(Rest{system_.kinematics(i).pose}) : Motion(step_.motion(i));
+    const TouchingBody& body = bodies[i];
+    return body.isDriven() ? Motion(body.drivenBy->motion.after(body.time - body.drivenBy->from))
+           : body.isHeld() ? Motion(Rest{system_.kinematics(i).pose})
+                           : Motion(step_.motion(i));
   };
   const Motion ofA = motionOf(a);
   const Motion ofB = motionOf(b);

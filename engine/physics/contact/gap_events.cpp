@@ -38,7 +38,8 @@ void GapEvents::list(const FoundContacts& contacts, const GroupState& start, dou
   for (std::size_t i = 0; i < group_.boxes(); ++i) {
     const Kinematics at = group_.kinematics(i, start[i]);
     const double speed = at.velocity.norm() + at.angularVelocity.norm() * radiusOf(group_.body(i));
-    reach.push_back(group_.isHeld(i) ? 0 : 2 * h * (speed + h * acceleration) + closed_);
+    reach.push_back(group_.isHeld(i) && !group_.isDriven(i) ? 0
+                                                            : 2 * h * (speed + h * acceleration) + closed_);
   }
   for (std::size_t i = 0; i < group_.boxes(); ++i) {
     listCorners(contacts, start, i, reach[i]);
@@ -193,8 +194,9 @@ GapEvents::Bounds GapEvents::boundsOn(const Event& event, const GroupPath& path)
   const auto add = [&](std::size_t body) {
     const double radius = radiusOf(group_.body(body));
     lengths += radius;
-    if (!group_.isHeld(body)) {
-      const StepBounds of = boundsOf(path.motion(body));
+    if (!group_.isHeld(body) || group_.isDriven(body)) {
+      const StepBounds of = group_.isDriven(body) ? boundsOf(group_.bodies()[body].drivenBy->motion)
+                                                  : boundsOf(path.motion(body));
       const double turns = of.angularSpeed * of.angularSpeed + of.angularAcceleration;
       linear += of.acceleration;
       speed += of.speed;

@@ -51,7 +51,7 @@ double GroupLoads::acceleration(const GroupState& at) {
 }
 
 double GroupLoads::pull(const GroupState& at) {
-  const double gravity = group_.world().gravity.norm();
+  const double gravity = std::max(group_.world().gravity.norm(), drivenAcceleration(group_.bodies()));
   return vary() ? std::max(gravity, acceleration(at)) : gravity;
 }
 

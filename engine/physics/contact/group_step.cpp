@@ -43,6 +43,9 @@ GroupPath::GroupPath(const TouchingGroup& group, const GroupStep& step)
 }
 
 GroupBody GroupPath::at(std::size_t body, double time) const {
+  if (group_.isDriven(body)) {
+    return group_.drivenFrom(step_.start, body, time);
+  }
   if (group_.isHeld(body)) {
     return step_.start[body];
   }

@@ -74,6 +74,7 @@ void ImplicitStep::chooseResidual(const GroupState& at) {
 
 // Positions and attitudes at the end, from the velocities and angular momenta there.
 void ImplicitStep::turn(const GroupState& from, double h, GroupState& to) const {
+  group_.drive(from, h, to);
   for (std::size_t i = 0; i < group_.size(); ++i) {
     if (group_.isHeld(i)) {
       continue;
@@ -98,8 +99,9 @@ void ImplicitStep::move(const GroupState& from, double h, GroupState& to) const 
   turn(from, h, to);
 }
 
-void ImplicitStep::findMiddle(const GroupState& from, const GroupState& to) {
+void ImplicitStep::findMiddle(const GroupState& from, double h, const GroupState& to) {
   middle_ = from;
+  group_.drive(from, 0.5 * h, middle_);
   for (std::size_t i = 0; i < group_.size(); ++i) {
     if (!group_.isHeld(i)) {
       middle_[i] = {.position = 0.5 * (from[i].position + to[i].position),
@@ -180,7 +182,7 @@ bool ImplicitStep::advance(const GroupState& from, double h, std::vector<ClosedC
   move(from, h, to);
   // Rows at the middle and law at the end depend on the step's own result: one pass alone is of first order.
   for (int pass = 0; pass < static_cast<int>(order) && (loads_.vary() || !contacts.empty()); ++pass) {
-    findMiddle(from, to);
+    findMiddle(from, h, to);
     if (loads_.vary()) {
       loads_.find(middle_);
     }

@@ -68,7 +68,7 @@ class ImplicitStep {
 
   void chooseResidual(const GroupState& at);
   void guessImpulses(const GroupState& from, double h, std::span<const ClosedContact> contacts);
-  void findMiddle(const GroupState& from, const GroupState& to);
+  void findMiddle(const GroupState& from, double h, const GroupState& to);
   void setProblem(const GroupState& from, double h, std::span<const ClosedContact> contacts,
                   const GroupState& to);
   void aimAtEnd(const GroupState& to);

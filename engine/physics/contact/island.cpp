@@ -44,8 +44,11 @@ double timeScaleOf(const World& world, double tolerance) {
   double scale = kInfinity;
   for (const Body& body : world.bodies) {
     const double radius = radiusOf(body);
-    const double speed =
-        body.initial.velocity.norm() + radius * angularVelocity(body.mass, body.initial).norm();
+    double speed = body.initial.velocity.norm() + radius * angularVelocity(body.mass, body.initial).norm();
+    for (const CoursePart& part : body.course) {
+      const MotionRates rates = boundsOf(part.motion);
+      speed = std::max(speed, rates.speed + radius * rates.angularSpeed);
+    }
     scale = speed > 0 ? std::min(scale, std::sqrt(tolerance * radius) / speed) : scale;
   }
   return std::min(scale, timeUnderSprings(world, tolerance));
@@ -167,6 +170,9 @@ void Island::adopt() {
   deepest_ = std::max(deepest_, stepper.deepest());
   SmoothStep::State& state = step_.state();
   for (std::size_t i = 0; i < bodies().size(); ++i) {
+    if (bodies()[i].isDriven()) {
+      state.back() = stepper.state()[i].time;
+    }
     if (bodies()[i].isHeld()) {
       continue;
     }

@@ -126,10 +126,13 @@ void SmoothStep::retake(double length) {
 // How long a step may be at its start; sets the lifetime of the speeds there.
 double SmoothStep::longest() {
   double most = kUnbounded;
-  const bool alone = end_.y.size() == ContactSystem::kNumbers;
+  const bool alone = end_.y.size() < 2 * ContactSystem::kNumbers;
   lifetime_ = kUnbounded;
   for (std::size_t i = 0; i < system_.bodies().size(); ++i) {
-    const double turning = system_.kinematics(i).angularVelocity.norm();
+    const TouchingBody& body = system_.bodies()[i];
+    const double turning =
+        std::max(system_.kinematics(i).angularVelocity.norm(),
+                 body.isDriven() && body.drivenBy->motion.swings() ? body.drivenBy->motion.rate : 0);
     if (turning > 0) {
       most = std::min(most, kMostTurn / turning);
     }
@@ -184,6 +187,9 @@ void SmoothStep::finish() {
     for (std::size_t k = at; k < at + 4; ++k) {
       end_.y[k] /= size;
     }
+  }
+  if (system_.isDriven()) {
+    end_.y.back() = start_.y.back() + length_;
   }
   const bool kept = system_.keepMomenta(start_.y, length_, end_.y);
   const bool moved = system_.project(end_.y, ContactSystem::kMostMoved * tolerance_);
@@ -267,6 +273,9 @@ SmoothStep::State SmoothStep::stateWithin(std::span<const ContactStep> motions, 
     setThree(state, at + 10,
              mass.inverseInertiaTimes(body.pose.worldFromBody.transpose() * body.angularMomentum));
   }
+  if (system_.isDriven()) {
+    state.back() = start_.y.back() + time;
+  }
   return state;
 }
 
@@ -307,7 +316,7 @@ double SmoothStep::errorBetween() {
 bool SmoothStep::isMovedByCorrection() const {
   constexpr std::size_t kOfPlace = 7;
   State corrected(end_.y.size(), 0.0);
-  for (std::size_t at = 0; at < end_.y.size(); at += ContactSystem::kNumbers) {
+  for (std::size_t at = 0; at + kOfPlace <= end_.y.size(); at += ContactSystem::kNumbers) {
     for (std::size_t k = at; k < at + kOfPlace; ++k) {
       corrected[k] = end_.y[k] - start_.y[k] - 0.5 * length_ * (start_.rate[k] + end_.rate[k]);
     }
@@ -316,7 +325,7 @@ bool SmoothStep::isMovedByCorrection() const {
 }
 
 bool SmoothStep::gainsEnergy() const {
-  if (hasSprings(world_)) {
+  if (hasSprings(world_) || system_.isDriven()) {
     return false;
   }
   double motion = 0;  // [J] before and after

@@ -46,8 +46,8 @@ class SmoothStep {
   double errorBetween();
   /// Whether the correction of places at its end displaced a body by more than the tolerance.
   bool isMovedByCorrection() const;
-  /// Contacts give no energy. A step that gained some passed a moment at which the forces are without bound,
-  /// in a wedge for one, and went on with forces that pull.
+  /// Contacts give no energy, unless something is driven. A step that gained some passed a moment at which
+  /// the forces are without bound, in a wedge for one, and went on with forces that pull.
   bool gainsEnergy() const;
 
   /// Motion of a movable body in it; of all of them, and the state on these after `time` [s].

@@ -51,6 +51,9 @@ bool hasNearlyStopped(const ContactSystem& system, std::size_t contact, double t
 }  // namespace
 
 bool isAtRest(const ContactSystem& system) {
+  if (system.isDriven()) {
+    return false;
+  }
   const double still = std::max(kStill * system.pull(), kStillLoaded * (loadOf(system) - system.pull()));
   std::size_t at = 0;
   for (const TouchingBody& body : system.bodies()) {

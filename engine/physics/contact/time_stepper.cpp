@@ -47,8 +47,15 @@ TimeStepper::TimeStepper(const World& world, const std::vector<TouchingBody>& bo
 
 // [s] Time in which nothing moves by more than what counts as closed.
 double TimeStepper::shortestStep() {
-  const double fastest = equations_.group().fastest(step_.start);
-  const double acceleration = std::max(acceleration_, equations_.loads().acceleration(step_.start));
+  double fastest = equations_.group().fastest(step_.start);
+  double acceleration = std::max(acceleration_, equations_.loads().acceleration(step_.start));
+  for (const TouchingBody& body : bodies_) {
+    if (body.isDriven()) {
+      const MotionRates rates = boundsOf(body.drivenBy->motion);
+      fastest = std::max(fastest, rates.speed + rates.angularSpeed * radiusOf(*body.body));
+    }
+  }
+  acceleration = std::max(acceleration, drivenAcceleration(bodies_));
   double shortest = kForever;
   if (fastest > 0) {
     shortest = 0.25 * closed() / fastest;
@@ -63,11 +70,13 @@ double TimeStepper::longestStep() const {
   double most = kForever;
   double first = kForever;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (bodies_[i].isHeld()) {
+    if (bodies_[i].isHeld() && !bodies_[i].isDriven()) {
       continue;
     }
     const Kinematics at = equations_.group().kinematics(i, step_.start[i]);
-    const double turning = at.angularVelocity.norm();
+    const double turning = std::max(
+        at.angularVelocity.norm(),
+        bodies_[i].isDriven() && bodies_[i].drivenBy->motion.swings() ? bodies_[i].drivenBy->motion.rate : 0);
     const double radius = radiusOf(*bodies_[i].body);
     const double speed = at.velocity.norm() + turning * radius;
     if (turning > 0) {

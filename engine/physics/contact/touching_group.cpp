@@ -5,10 +5,26 @@
 #include "physics/contact/group_momentum.h"
 
 namespace careen {
+namespace {
+
+GroupBody groupBodyOf(const TouchingBody& driven) {
+  const BodyState state = driven.state();
+  return {.position = driven.position,
+          .worldFromBody = driven.worldFromBody,
+          .velocity = state.velocity,
+          .angularMomentum = state.angularMomentum,
+          .time = driven.time};
+}
+
+}  // namespace
 
 GroupState TouchingGroup::state() const {
   GroupState all;
   for (const TouchingBody& body : bodies_) {
+    if (body.isDriven()) {
+      all.push_back(groupBodyOf(body));
+      continue;
+    }
     const BodyState state = body.state();
     all.push_back({.position = body.position,
                    .worldFromBody = body.worldFromBody,
@@ -18,6 +34,18 @@ GroupState TouchingGroup::state() const {
   return all;
 }
 
+GroupBody TouchingGroup::drivenFrom(const GroupState& from, std::size_t body, double h) const {
+  return groupBodyOf(drivenAt(bodies_[body], from[body].time + h));
+}
+
+void TouchingGroup::drive(const GroupState& from, double h, GroupState& to) const {
+  for (std::size_t i = 0; i < boxes_; ++i) {
+    if (isDriven(i)) {
+      to[i] = drivenFrom(from, i, h);
+    }
+  }
+}
+
 Vec3 TouchingGroup::angularVelocity(std::size_t body, const Mat3& worldFromBody,
                                     const Vec3& angularMomentum) const {
   return worldFromBody *
@@ -25,6 +53,9 @@ Vec3 TouchingGroup::angularVelocity(std::size_t body, const Mat3& worldFromBody,
 }
 
 Kinematics TouchingGroup::kinematics(std::size_t body, const GroupBody& at) const {
+  if (isDriven(body)) {
+    return bodies_[body].drivenBy->at(at.time);
+  }
   Kinematics kinematics{.pose = at.pose()};
   if (!isHeld(body)) {
     kinematics.velocity = at.velocity;

@@ -17,6 +17,7 @@ struct GroupBody {
   Quat worldFromBody = Quat::Identity();
   Vec3 velocity = Vec3::Zero();         ///< [m/s]
   Vec3 angularMomentum = Vec3::Zero();  ///< [kg m²/s]
+  double time = 0;                      ///< [s] of what is driven: when it is there
 
   Pose pose() const { return {position, worldFromBody.toRotationMatrix()}; }
   BodyState state() const { return {pose(), velocity, angularMomentum}; }
@@ -38,8 +39,13 @@ class TouchingGroup {
   const Body& body(std::size_t index) const { return *bodies_[index].body; }
   bool isHeld(std::size_t index) const { return bodies_[index].isHeld(); }
 
-  /// The state that the bodies have; those that are held do not move.
+  bool isDriven(std::size_t index) const { return bodies_[index].isDriven(); }
+
+  /// The state that the bodies have; those that are held do not move, unless they are driven.
   GroupState state() const;
+  /// What is driven goes on from one state for so long [s], in the other.
+  void drive(const GroupState& from, double h, GroupState& to) const;
+  GroupBody drivenFrom(const GroupState& from, std::size_t body, double h) const;
   Kinematics kinematics(std::size_t body, const GroupBody& at) const;
   /// [rad/s] Of a body, of that attitude and angular momentum.
   Vec3 angularVelocity(std::size_t body, const Mat3& worldFromBody, const Vec3& angularMomentum) const;

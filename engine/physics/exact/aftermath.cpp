@@ -107,14 +107,20 @@ void settleBody(const Bodies& bodies, Encounter& encounter, std::size_t index, c
     if ((!isA && contact.b != static_cast<int>(index)) || contact.rows) {
       continue;
     }
-    alone =
-        alone && (isA ? encounter.b(k) : encounter.a(k)).mover->isHeld() && !contact.material.surface.moves();
+    const Mover& other = *(isA ? encounter.b(k) : encounter.a(k)).mover;
+    alone = alone && other.isHeld() && !other.isDriven() && !contact.material.surface.moves();
     const Vec3 normal = isA ? contact.normal : Vec3(-contact.normal);
     const Vec3& arm = isA ? contact.armA : contact.armB;
     if (!contact.directions.empty() && !(encounter.shares[k].impulse > 0)) {
       continue;  // it did not have to push
     }
-    const Vec3 acceleration = pull + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
+    Vec3 acceleration = pull + omegaRate.cross(arm) + omega.cross(omega.cross(arm));
+    if (other.isDriven()) {
+      const Kinematics driven = other.drivenBy->at(encounter.time.hi);
+      const Vec3& armOf = isA ? contact.armB : contact.armA;
+      acceleration -=
+          driven.accelerationAt(armOf) + driven.angularVelocity.cross(driven.angularVelocity.cross(armOf));
+    }
     const double normalAcceleration = dot(normal, acceleration);
     const bool returns =
         std::fabs(normalAcceleration) > kParting * acceleration.norm();  // along a wall it is rounding

@@ -87,6 +87,17 @@ double changeAtRest(const World& world, const ChangingWorld* changing, const Mov
   return change;
 }
 
+// All that move look for what is driven, and a crowd sees to its members.
+bool looksFor(const Mover& driven, const Mover& other) {
+  if (other.moves() || other.isHeld()) {
+    return false;
+  }
+  const auto isOf = [&](const ContactGroup& group) {
+    return std::find(group.ranks().begin(), group.ranks().end(), driven.rank) != group.ranks().end();
+  };
+  return !other.group || !isOf(*other.group);
+}
+
 void takeSooner(std::optional<Event>& first, const std::optional<Event>& candidate) {
   if (candidate && (!first || earlier(candidate->time, first->time))) {
     first = candidate;
@@ -134,7 +145,10 @@ Bodies::Bodies(const World& world, const RunSettings& settings, Recorder& record
       ++movable;
       mover.doubt = ofRounding(*mover.body);
     }
-    neighbors_.insert(rank, mover.body->initial.pose.position, radiusOf(*mover.body));
+    // What is driven may be anywhere.
+    neighbors_.insert(
+        rank, mover.body->initial.pose.position,
+        mover.body->course.empty() ? radiusOf(*mover.body) : std::numeric_limits<double>::infinity());
   }
   for (std::size_t w = 0; w < world.walls.size(); ++w) {
     const int rank = static_cast<int>(movers_.size());
@@ -226,7 +240,7 @@ void Bodies::step(const std::shared_ptr<ContactGroup>& group, std::size_t place)
 
 void Bodies::noteSpeed(const Mover& body) {
   const auto note = [&](const Mover& each) {
-    const double speed = each.steps() ? each.bounds.speed : each.flight.velocity.norm();
+    const double speed = each.flies() ? each.flight.velocity.norm() : each.bounds.speed;
     fastestAtZero_ = std::max(fastestAtZero_, speed - each.start.hi * world_.gravity.norm());
   };
   if (++noted_ > count()) {
@@ -316,6 +330,9 @@ void Bodies::predict(int rank) {
                             .body = rank});
   }
   for (const int candidate : around(rank)) {
+    if (body.isDriven() && !looksFor(body, (*this)[candidate])) {
+      continue;
+    }
     if (mayTouch(world_, body.listed.value, (*this)[candidate].listed.value)) {
       takeSooner(first, firstMeeting(body, (*this)[candidate], first ? first->time : end_));
     }
@@ -341,10 +358,26 @@ void Bodies::cross(int rank) {
   predict(rank);
 }
 
-void Bodies::feelGravity() {
+void Bodies::feelJump(const Instant& time) {
   timeScale_ = timeScaleOf(world_, tolerance_);
   longestStep_ = longestStepOf(world_);
   fastestAtZero_ = -std::numeric_limits<double>::infinity();
+  for (int rank = 0; rank < count(); ++rank) {
+    Mover& body = (*this)[rank];
+    const Course& course = body.body->course;
+    const CoursePart* const part = course.empty() ? nullptr : &partAt(course, time.hi);
+    if (part == nullptr || part->from != time.hi) {
+      continue;
+    }
+    if (!part->motion.moves()) {
+      rest(rank, time, part->motion.at(0).pose);
+      continue;
+    }
+    begins(rank, time);
+    body.drive(*part);
+    recorder_.moves(body.listed, time.hi, part->motion);
+    noteSpeed(body);
+  }
 }
 
 void Bodies::file(int rank, const Vec3& position) {

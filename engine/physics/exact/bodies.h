@@ -91,8 +91,9 @@ class Bodies {
   void predictAround(int rank);
   /// It has entered the cell that it was to cross into.
   void cross(int rank);
-  /// Gravity has changed, and all that can move will fly anew.
-  void feelGravity();
+  /// Gravity has changed, or what is driven begins another part of its course; all that can move will fly
+  /// anew.
+  void feelJump(const Instant& time);
   /// Others find it from now on where that position [m] is.
   void file(int rank, const Vec3& position);
   void findCrossing(int rank);

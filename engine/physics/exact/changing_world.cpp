@@ -24,6 +24,7 @@ ChangingWorld::ChangingWorld(const World& world)
     }
   }
   release(-kNever);
+  findNextPart(0);
 }
 
 double ChangingWorld::nextGravity() const {
@@ -33,7 +34,20 @@ double ChangingWorld::nextGravity() const {
   return world_.gravityChanges[gravities_].time;
 }
 
-void ChangingWorld::changeGravity() { world_.gravity = world_.gravityChanges[gravities_++].gravity; }
+void ChangingWorld::findNextPart(double after) {
+  nextPart_ = kNever;
+  for (const Body& body : world_.bodies) {
+    nextPart_ = std::min(nextPart_, nextPart(body.course, after));
+  }
+}
+
+void ChangingWorld::jump() {
+  const double time = nextJump();
+  if (nextGravity() <= time) {
+    world_.gravity = world_.gravityChanges[gravities_++].gravity;
+  }
+  findNextPart(time);
+}
 
 // By multiplication: no sum of periods.
 double ChangingWorld::nextSample() const {

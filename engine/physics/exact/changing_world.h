@@ -12,16 +12,17 @@
 
 namespace careen {
 
-/// A world that changes at moments: its gravity, the efforts of its motors at each sample of its control, and
-/// what lets go has no load any more.
+/// A world that changes at moments: its gravity, what is driven, the efforts of its motors at each sample of
+/// its control, and what lets go has no load any more.
 class ChangingWorld {
  public:
   explicit ChangingWorld(const World& world);
 
   const World& world() const { return world_; }
-  /// [s] When gravity changes next.
-  double nextGravity() const;
-  void changeGravity();
+  /// [s] When gravity changes next, or something driven jumps to another speed.
+  double nextJump() const { return std::min(nextGravity(), nextPart_); }
+  /// That moment comes.
+  void jump();
 
   /// [s] The next moment at which joints change.
   double next() const { return std::min(nextSample(), nextRelease_); }
@@ -31,12 +32,15 @@ class ChangingWorld {
   void change(std::span<const BodyState> states, Recorder& recorder);
 
  private:
+  double nextGravity() const;  // [s]
+  void findNextPart(double after);
   double nextSample() const;  // [s]
   void sample(double time, std::span<const BodyState> states, Recorder& recorder);
   std::vector<JointEffort> release(double time);
 
   World world_;
-  std::size_t gravities_ = 0;         // how often gravity has changed
+  std::size_t gravities_ = 0;  // how often gravity has changed
+  double nextPart_ = std::numeric_limits<double>::infinity();
   std::vector<JointSample> samples_;  // by joint, of the last sample
   std::vector<char> isDriven_;        // by joint: its effort may change
   std::int64_t sampled_ = 0;          // how often

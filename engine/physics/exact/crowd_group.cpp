@@ -47,7 +47,7 @@ void CrowdGroup::form(Bodies& bodies, const Encounter& encounter) {
     if (!crowd) {
       crowd = met;
     } else {
-      crowd->merge(*met);
+      crowd->merge(*met, encounter.time);
     }
   }
   if (!crowd) {
@@ -57,6 +57,11 @@ void CrowdGroup::form(Bodies& bodies, const Encounter& encounter) {
     crowd->enlist(body.mover->rank, encounter.time, body.before, body.attitude);
   }
   crowd->go(encounter.time);
+  for (const EncounterBody& body : encounter.bodies) {
+    if (body.mover->isDriven()) {
+      bodies.predict(body.mover->rank);
+    }
+  }
 }
 
 // Whom it meets within a step is a member from the start of that step, if it has been in Flight since: the
@@ -92,6 +97,13 @@ void CrowdGroup::keepPlace(int rank, std::size_t place) {
 void CrowdGroup::enlist(int rank, const Instant& time, const BodyState& state, const Quat& attitude) {
   Mover& body = bodies_[rank];
   if (has(body) || !body.isBox()) {  // it has all walls
+    return;
+  }
+  if (body.isDriven()) {
+    if (std::find(ranks_.begin(), ranks_.end(), rank) == ranks_.end()) {
+      const BodyState now = body.stateAt(time);
+      keepPlace(rank, crowd_.admit(listedOf(body), now, Quat(now.pose.worldFromBody), 0, body.drivenBy));
+    }
     return;
   }
   if (!body.moves() && (body.isHeld() || !isJointed(bodies_.world(), body.listed.value))) {
@@ -154,7 +166,7 @@ void CrowdGroup::enlistAtRest(int rank) {
 }
 
 // Takes over all members of another crowd, whose step has ended.
-void CrowdGroup::merge(CrowdGroup& other) {
+void CrowdGroup::merge(CrowdGroup& other, const Instant& time) {
   std::vector<std::optional<std::size_t>> clusters(other.ranks_.size());
   for (std::size_t place = 0; place < other.ranks_.size(); ++place) {
     const int rank = other.ranks_[place];
@@ -162,6 +174,10 @@ void CrowdGroup::merge(CrowdGroup& other) {
       continue;
     }
     const Mover& body = bodies_[rank];
+    if (body.isDriven()) {
+      enlist(rank, time, {}, {});
+      continue;
+    }
     if (body.isHeld()) {
       enlistAtRest(rank);
       continue;
@@ -207,7 +223,7 @@ void CrowdGroup::admitOutsider(int rank, const Instant& time) {
   for (const std::shared_ptr<CrowdGroup>& other : with.crowds) {
     if (other.get() != this) {
       other->endAt(time);
-      merge(*other);
+      merge(*other, time);
     }
   }
   for (const EncounterBody& body : with.bodies) {
@@ -296,6 +312,11 @@ std::optional<Encounter> CrowdGroup::advance(const Instant& time) {
         bodies_[rank].group.reset();
       }
     }
+    for (const int rank : ranks_) {
+      if (rank >= 0 && bodies_[rank].isDriven()) {
+        bodies_.predict(rank);
+      }
+    }
   } else {
     go(time);
   }
@@ -331,7 +352,7 @@ double CrowdGroup::step(const Instant& from, double most) {
   if (change > kMoment && std::isfinite(change)) {
     most = std::min(most, change / std::ceil((1 - kMoment) * change / crowd_.nextLength(most)));
   }
-  return crowd_.step(most);
+  return crowd_.step(most, from.hi);
 }
 
 // Where new members are joined, and turn fast, a shorter one.
@@ -382,7 +403,7 @@ void CrowdGroup::go(const Instant& time) {
   admitNear(time, crowd_.nextLength(most));
   bodies_.account().mayLose();
   for (std::size_t place = 0; place < ranks_.size(); ++place) {
-    if (ranks_[place] >= 0 && !crowd_.body(place).held && !crowd_.sleeps(place)) {
+    if (ranks_[place] >= 0 && !crowd_.body(place).held() && !crowd_.sleeps(place)) {
       bodies_.account().departs(listedOf(bodies_[ranks_[place]]), crowd_.stateAtVelocity(place));
     }
   }

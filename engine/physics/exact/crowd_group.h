@@ -40,7 +40,7 @@ class CrowdGroup final : public ContactGroup {
   void keepPlace(int rank, std::size_t place);
   void enlist(int rank, const Instant& time, const BodyState& state, const Quat& attitude);
   void enlistAtRest(int rank);
-  void merge(CrowdGroup& other);
+  void merge(CrowdGroup& other, const Instant& time);
   void admitOutsider(int rank, const Instant& time);
   void admitNear(const Instant& time, double length);
   enum class Taken { kFirst, kAgain };

@@ -106,7 +106,7 @@ std::vector<int> outsidersIn(const Bodies& bodies, const CrowdGroup& group, cons
     }
     const double way = body.flies()   ? length * (body.flight.velocityAt(body.elapsed(time)).norm() +
                                                 length * bodies.world().gravity.norm())
-                       : body.steps() ? length * body.bounds.speed
+                       : body.moves() ? length * body.bounds.speed
                                       : 0;
     const Vec3 reach = Vec3::Constant(radiusOf(*body.body) + way);
     const Vec3 center = body.moves() ? body.positionAt(time) : body.pose.position;
@@ -126,7 +126,7 @@ bool wasMet(const Bodies& bodies, const CrowdGroup& group, int rank, const Insta
   const double length =
       body.steps() ? std::min(crowd.length(), secondsBetween(time, body.group->end())) : crowd.length();
   const Pose pose = body.moves() ? body.stateAt(time).pose : body.pose;
-  const double way = body.steps() ? length * body.bounds.speed : 0;
+  const double way = body.steps() || body.isDriven() ? length * body.bounds.speed : 0;
   return length > 0 && anyMember(bodies, group, rank, [&](const Mover& member) {
            if (!crowd.cameNear(member.place, *body.body, pose, way)) {
              return false;
@@ -162,7 +162,7 @@ bool meetsNext(const Bodies& bodies, const CrowdGroup& group, int rank, const In
                   [&](const BoxAt& a, const BoxAt& b) { return BoxAxes(a, b).gap() <= way; })) {
       return false;
     }
-    return !body.moves() || isOfCrowd ||
+    return !body.moves() || body.isDriven() || isOfCrowd ||
            (body.flies() && meetsWithin(bodies, group, body, member, time, length));
   });
 }
@@ -180,7 +180,8 @@ std::vector<int> nearStep(const Bodies& bodies, const CrowdGroup& group) {
     const double speed =
         state.velocity.norm() + angularVelocity(body.body->mass, state).norm() * radiusOf(*body.body);
     const double way =
-        length * (body.steps() ? body.bounds.speed : speed + length * bodies.world().gravity.norm());
+        length * (body.steps() || body.isDriven() ? body.bounds.speed
+                                                  : speed + length * bodies.world().gravity.norm());
     return !anyMember(bodies, group, rank, [&](const Mover& member) {
       return group.crowd().cameNear(member.place, *body.body, state.pose, way);
     });

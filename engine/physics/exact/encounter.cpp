@@ -1,6 +1,7 @@
 #include "physics/exact/encounter.h"
 
 #include <algorithm>
+#include <array>
 
 #include "physics/contact/joint_rows.h"
 #include "physics/geometry/separation.h"
@@ -61,6 +62,11 @@ void findJoints(const World& world, Encounter& encounter) {
 
 double pullOf(const Bodies& bodies, const Encounter& encounter) {
   double pull = bodies.world().gravity.norm();
+  for (const EncounterBody& body : encounter.boxes()) {
+    if (body.mover->isDriven()) {
+      pull = std::max(pull, drivenAcceleration(std::array{body.touching(encounter.time)}));
+    }
+  }
   if (!isAnyForced(bodies, encounter)) {
     return pull;
   }
@@ -74,15 +80,17 @@ double pullOf(const Bodies& bodies, const Encounter& encounter) {
 
 }  // namespace
 
-TouchingBody EncounterBody::touching() const {
+TouchingBody EncounterBody::touching(const Instant& time) const {
+  const Vec3 spun = after.pose.worldFromBody.transpose() * after.angularMomentum;
   return {.body = mover->body,
           .halfSpace = mover->halfSpace,
           .index = listed(),
           .position = after.pose.position,
           .worldFromBody = attitude,
           .velocity = after.velocity,
-          .angularVelocityBody =
-              body().mass.inverseInertiaTimes(after.pose.worldFromBody.transpose() * after.angularMomentum)};
+          .angularVelocityBody = mover->isHeld() ? spun : body().mass.inverseInertiaTimes(spun),
+          .drivenBy = mover->isDriven() ? mover->drivenBy : nullptr,
+          .time = time.hi};
 }
 
 std::size_t Encounter::indexOf(int rank) const {

@@ -35,8 +35,8 @@ struct EncounterBody {
   int listed() const { return mover->listed.value; }
   BoxAt box() const { return boxAt(before.pose, body()); }
   BoxAt box(int index) const { return boxAt(before.pose, body(), index); }
-  /// As it is after the encounter.
-  TouchingBody touching() const;
+  /// As it is after the encounter, at that time.
+  TouchingBody touching(const Instant& time) const;
 };
 
 /// Bodies that touch at one moment: who, where, what impact they have, and what becomes of them.

@@ -81,8 +81,8 @@ std::vector<ImpactContact> closedJoints(const Encounter& encounter) {
   for (std::size_t k = 0; k < encounter.joints.size(); ++k) {
     const ContactFeature& joint = encounter.joints[k];
     const EncounterBody& first = encounter.bodies[static_cast<std::size_t>(joint.a)];
-    const TouchingBody a = first.touching();
-    const TouchingBody b = encounter.bodies[static_cast<std::size_t>(joint.b)].touching();
+    const TouchingBody a = first.touching(encounter.time);
+    const TouchingBody b = encounter.bodies[static_cast<std::size_t>(joint.b)].touching(encounter.time);
     const ContactState state =
         contactState(joint, a.kinematics(), a.shape(joint.boxA), b.kinematics(), b.shape(joint.boxB));
     if (joint.grips()) {

@@ -28,7 +28,7 @@ void addKnown(const Encounter& encounter, Features& features) {
 std::vector<TouchingBody> touchingOf(const Encounter& encounter) {
   std::vector<TouchingBody> touching;
   for (const EncounterBody& each : encounter.bodies) {
-    touching.push_back(each.touching());
+    touching.push_back(each.touching(encounter.time));
   }
   return touching;
 }

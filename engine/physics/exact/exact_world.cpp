@@ -60,8 +60,9 @@ std::vector<std::size_t> articulationsOf(const World& world) {
 // The event loop, from here to end().
 
 ExactWorld::ExactWorld(const World& world, const RunSettings& settings, Recorder& recorder)
-    : changing_(world.joints.empty() && world.gravityChanges.empty() ? std::nullopt
-                                                                     : std::optional<ChangingWorld>(world)),
+    : changing_(world.joints.empty() && world.gravityChanges.empty() && !hasCourses(world)
+                    ? std::nullopt
+                    : std::optional<ChangingWorld>(world)),
       bodies_(changing_ ? changing_->world() : world, settings, recorder, changing_ ? &*changing_ : nullptr),
       articulationOf_(articulationsOf(world)) {}
 
@@ -71,7 +72,7 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
   while (true) {
     const std::optional<Event> event = bodies_.queue().next();
     const bool isOver = !event || earlier(bodies_.end(), event->time);
-    const double change = changing_ ? changing_->nextGravity() : std::numeric_limits<double>::infinity();
+    const double change = changing_ ? changing_->nextJump() : std::numeric_limits<double>::infinity();
     const bool changesFirst = change < bodies_.end().hi && (isOver || change <= event->time.hi);
     if (isOver && !changesFirst) {
       break;
@@ -87,7 +88,7 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
     }
     changeJoints(now.hi);
     if (changesFirst) {
-      changeGravity(now);
+      jump(now);
     } else {
       happen(*event);
     }
@@ -97,8 +98,12 @@ RunFigures ExactWorld::run(const std::stop_token& stop) {
 }
 
 void ExactWorld::begin() {
+  bodies_.feelJump({});
   for (int rank = 0; rank < bodies_.count(); ++rank) {
     const BodyState& initial = bodies_[rank].body->initial;
+    if (!bodies_[rank].body->course.empty()) {
+      continue;
+    }
     if (bodies_[rank].isHeld()) {
       bodies_.rest(rank, {}, initial.pose);
     } else {
@@ -123,8 +128,9 @@ void ExactWorld::changeJoints(double until) {
   }
 }
 
-// All that can move flies anew, as at the start of a run, and finds again what it touches.
-void ExactWorld::changeGravity(const Instant& time) {
+// Where gravity changes, or the speed of something driven. All that can move flies anew, as at the start of a
+// run, and finds again what it touches.
+void ExactWorld::jump(const Instant& time) {
   Encounter all;
   all.time = time;
   for (int rank = 0; rank < bodies_.count(); ++rank) {
@@ -145,8 +151,8 @@ void ExactWorld::changeGravity(const Instant& time) {
     }
   }
   bodies_.account().parted();
-  changing_->changeGravity();
-  bodies_.feelGravity();
+  changing_->jump();
+  bodies_.feelJump(time);
   for (const EncounterBody& body : all.bodies) {
     if (body.mover->isHeld()) {
       continue;

@@ -31,7 +31,7 @@ class ExactWorld {
   void begin();
   void happen(const Event& event);
   void changeJoints(double until);
-  void changeGravity(const Instant& time);
+  void jump(const Instant& time);
   void meet(const Event& event);
   void moveOn(Encounter& encounter);
   void end(const Instant& time);
@@ -39,7 +39,7 @@ class ExactWorld {
   bool goesOnAsCrowd(const Encounter& encounter) const;
   bool costsTooMuch(const Encounter& encounter) const;
 
-  std::optional<ChangingWorld> changing_;  // of worlds with joints, or whose gravity changes
+  std::optional<ChangingWorld> changing_;  // of worlds with joints, or in which something jumps
   Bodies bodies_;
   std::vector<std::size_t> articulationOf_;  // by body of the world; empty: there are no joints
 };

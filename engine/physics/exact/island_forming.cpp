@@ -155,7 +155,7 @@ void formIsland(Bodies& bodies, Encounter& encounter, const std::vector<std::siz
   std::vector<TouchingBody> touching;
   std::vector<int> ranks;
   for (const std::size_t i : parts.indices) {
-    touching.push_back(encounter.bodies[i].touching());
+    touching.push_back(encounter.bodies[i].touching(encounter.time));
     ranks.push_back(encounter.bodies[i].mover->rank);
   }
   const auto islandOfThem = [&] {

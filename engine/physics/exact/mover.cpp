@@ -33,6 +33,13 @@ void Mover::step(std::shared_ptr<ContactGroup> with, std::size_t as) {
   bounds = boundsOf(group->motion(place));
 }
 
+void Mover::drive(const CoursePart& by) {
+  rest({});
+  kind = Kind::kDriven;
+  drivenBy = &by;
+  bounds = boundsOf(by.motion);
+}
+
 void Mover::rest(const Pose& at) {
   kind = Kind::kRests;
   flight = {.position = at.position, .worldFromBody = Quat(at.worldFromBody)};
@@ -45,6 +52,9 @@ void Mover::rest(const Pose& at) {
 }
 
 Vec3 Mover::positionAt(const Instant& time) const {
+  if (isDriven()) {
+    return drivenBy->motion.at(elapsed(time)).pose.position;
+  }
   return steps() ? careen::positionAt(group->motion(place), elapsed(time)) : flight.positionAt(elapsed(time));
 }
 
@@ -52,12 +62,18 @@ Quat Mover::attitudeAt(const Instant& time) const {
   if (steps()) {
     return Quat(careen::stateAt(group->motion(place), body->mass, elapsed(time)).pose.worldFromBody);
   }
+  if (isDriven()) {
+    return Quat(drivenBy->motion.at(elapsed(time)).pose.worldFromBody);
+  }
   return rotation ? body->mass.worldFromBody(rotation->worldFromBody(elapsed(time))) : flight.worldFromBody;
 }
 
 BodyState Mover::stateAt(const Instant& time, const Quat& attitude) const {
   if (steps()) {
     return careen::stateAt(group->motion(place), body->mass, elapsed(time));
+  }
+  if (isDriven()) {
+    return stateOf(drivenBy->motion.at(elapsed(time)));
   }
   if (!flies()) {
     return {.pose = pose};
@@ -72,6 +88,10 @@ Attitude Mover::operator()(double elapsed) const {
   if (steps()) {
     const BodyState state = careen::stateAt(group->motion(place), body->mass, elapsed);
     return {.worldFromBody = state.pose.worldFromBody, .angularVelocity = angularVelocity(body->mass, state)};
+  }
+  if (isDriven()) {
+    const Kinematics now = drivenBy->motion.at(elapsed);
+    return {.worldFromBody = now.pose.worldFromBody, .angularVelocity = now.angularVelocity};
   }
   if (!rotation) {
     return {.worldFromBody = pose.worldFromBody};
@@ -95,7 +115,8 @@ MovingBox Mover::moving(const Instant& clockZero, int box) const {
           .attitude = AttitudeView(*this),
           .step = steps() ? &group->motion(place) : nullptr,
           .speedBound = bounds.speed,
-          .accelerationBound = bounds.acceleration};
+          .accelerationBound = bounds.acceleration,
+          .driven = isDriven() ? &drivenBy->motion : nullptr};
 }
 
 bool areTouching(const BoxAt& a, const BoxAt& b, double apart) {

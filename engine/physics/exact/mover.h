@@ -19,7 +19,8 @@ namespace careen {
 
 /// One body of method exact, a box or a wall: its current motion and its predicted events.
 struct Mover {
-  enum class Kind { kRests, kFlies, kSteps };  ///< kSteps: with a group of bodies in contact
+  /// kSteps: with a group of bodies in contact. kDriven: held, and moves by itself.
+  enum class Kind { kRests, kFlies, kSteps, kDriven };
 
   const Body* body = nullptr;
   const Wall* halfSpace = nullptr;  ///< its shape; null: the body's box
@@ -27,6 +28,7 @@ struct Mover {
   BodyIndex listed;  ///< its index in the scene
   Kind kind = Kind::kRests;
   Flight flight;                                    ///< if it flies
+  const CoursePart* drivenBy = nullptr;             ///< if it is driven
   std::shared_ptr<ContactGroup> group;              ///< of which it is a member, perhaps asleep
   std::size_t place = 0;                            ///< its index in that group
   double work = 0;                                  ///< its share of Island::work() so far
@@ -50,9 +52,12 @@ struct Mover {
   bool isBox() const { return halfSpace == nullptr; }
   bool flies() const { return kind == Kind::kFlies; }
   bool steps() const { return kind == Kind::kSteps; }
+  bool isDriven() const { return kind == Kind::kDriven; }
   bool moves() const { return kind != Kind::kRests; }
   /// `attitude` is that of `state`, but may not reproduce its matrix to the bit.
   void fly(const BodyState& state, const Quat& attitude, const Vec3& gravity);
+  /// What is held does so.
+  void drive(const CoursePart& by);
   /// It stays a member of its group.
   void rest(const Pose& at);
   /// As the group moves it in its current step.

@@ -40,9 +40,9 @@ EventKind kindOf(const FirstContact& contact) {
 
 // Two bodies with the same uniform velocity and no rotation keep their gap: blocks that lie in a row.
 bool moveAsOne(const Mover& a, const Mover& b) {
-  return !a.steps() && !b.steps() && a.bounds.angularSpeed == 0 && b.bounds.angularSpeed == 0 &&
-         a.flight.acceleration == b.flight.acceleration && a.flight.velocity == b.flight.velocity &&
-         a.flight.acceleration.isZero(0);
+  return !a.steps() && !b.steps() && !a.isDriven() && !b.isDriven() && a.bounds.angularSpeed == 0 &&
+         b.bounds.angularSpeed == 0 && a.flight.acceleration == b.flight.acceleration &&
+         a.flight.velocity == b.flight.velocity && a.flight.acceleration.isZero(0);
 }
 
 }  // namespace

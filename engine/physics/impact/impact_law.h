@@ -13,10 +13,14 @@
 namespace careen {
 
 /// One body of an impact: its mass and its state, in which the impact changes velocity and angular momentum.
-/// A wall is one that cannot move.
+/// A wall is one that cannot be moved; what is held but moves by itself keeps its velocity.
 struct ImpactBody {
   const MassProperties* mass = nullptr;
   BodyState* state = nullptr;
+
+  bool isDriven() const {
+    return isImmovable(*mass) && !(state->velocity.isZero(0) && state->angularMomentum.isZero(0));
+  }
 };
 
 /// One point where two bodies touch at the moment of the impact.
@@ -27,7 +31,7 @@ struct ImpactContact {
   int a = 0;                    ///< index among the bodies; the normal points to it
   int b = 0;                    ///< index among the bodies
   Vec3 armA = Vec3::Zero();     ///< [m] world, from a's centre of mass to the point
-  Vec3 armB = Vec3::Zero();     ///< [m] world, from b's; not read if b cannot move
+  Vec3 armB = Vec3::Zero();     ///< [m] world, from b's; not read if b does not move
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit, from b to a
   Material material = {};       ///< of the pair, see touching()
   int boxA = 0;                 ///< which of a's boxes touches

@@ -86,6 +86,17 @@ void addContact(Setup& setup, std::span<const ImpactBody> bodies, const ImpactCo
         contact.material.surface.along(contact.normal, bodies[a].state->pose.position + contact.armA);
     added.target = {0, dot(axes[1], surface), dot(axes[2], surface)};
   }
+  const auto addDriven = [&](std::size_t body, const Vec3& arm, double sign) {
+    if (bodies[body].isDriven()) {
+      const BodyState& state = *bodies[body].state;
+      const Vec3 given = sign * (state.velocity + state.angularMomentum.cross(arm));
+      for (std::size_t row = 0; row < axes.size(); ++row) {
+        added.target[row] += dot(axes[row], given);
+      }
+    }
+  };
+  addDriven(a, contact.armA, -1);
+  addDriven(b, contact.armB, 1);
   added.admissible = contact.holds ? ContactProblem::Admissible::kSpace : ContactProblem::Admissible::kCone;
   setup.problem.contacts.push_back(added);
 }

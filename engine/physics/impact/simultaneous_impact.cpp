@@ -48,7 +48,8 @@ class Law {
         accuracy_(accuracy) {
     double scale = 0;  // [m/s] Σ|n_k q_k| of a contact: its speeds are rounded by parts of that
     for (const ContactProblem::Contact& contact : problem_.contacts) {
-      scale = std::max(scale, sumOfTerms(contact, 0, before_, [](double term) { return std::fabs(term); }));
+      scale = std::max(scale, sumOfTerms(contact, 0, before_, [](double term) { return std::fabs(term); }) +
+                                  std::fabs(contact.target[0]));
     }
     rounding_ = kApproachRounding * scale;
   }
@@ -65,7 +66,7 @@ class Law {
   }
 
   double approach(std::size_t contact) const {
-    return contacts_[contact].holds ? 0 : -speed(contact, 0, start_);
+    return contacts_[contact].holds ? 0 : -parting(contact, start_);
   }
   ContactResiduals takeResiduals() { return solver_.takeResiduals(); }
 
@@ -120,6 +121,11 @@ class Law {
   /// n q, t₁ q or t₂ q of a contact [m/s].
   double speed(std::size_t contact, std::size_t row, std::span<const double> q) const {
     return sumOfTerms(problem_.contacts[contact], row, q, [](double term) { return term; });
+  }
+
+  /// [m/s] n q, less what is driven there.
+  double parting(std::size_t contact, std::span<const double> q) const {
+    return speed(contact, 0, q) - problem_.contacts[contact].target[0];
   }
 
   /// q₀ + M⁻¹ Jᵀλ, from the velocities before.
@@ -180,7 +186,7 @@ class Law {
   void findApproaching(std::span<const double> q, Chosen& approaches) const {
     approaches.clear();
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      approaches.push_back(!contacts_[c].holds && speed(c, 0, q) < -rounding_ ? 1 : 0);
+      approaches.push_back(!contacts_[c].holds && parting(c, q) < -rounding_ ? 1 : 0);
     }
   }
 
@@ -243,8 +249,8 @@ class Law {
     Impulses last = projection(q, recent);
     const std::vector<double> end = after(last, q);
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
-      const double parting = contacts_[c].holds ? 0 : speed(c, 0, end);
-      if (parting < -kSettled * rounding_ || (recent[c] != 0 && parting > kSettled * rounding_)) {
+      const double left = contacts_[c].holds ? 0 : parting(c, end);
+      if (left < -kSettled * rounding_ || (recent[c] != 0 && left > kSettled * rounding_)) {
         return std::nullopt;
       }
     }
@@ -336,8 +342,8 @@ class Law {
 /// body wedged between rough sides may not be able to part so fast with any impulses in the cones: then it
 /// parts with half that speed, or a quarter, …, or sticks, which is always possible.
 Impulses Law::withFriction(const Impulses& smooth) {
-  const std::vector<double> parting = after(smooth);
-  std::vector<double> restituted = parting;
+  const std::vector<double> end = after(smooth);
+  std::vector<double> restituted = end;
   const std::vector<double> compressed = after(plastic());
   for (std::size_t k = 0; k < restituted.size(); ++k) {
     restituted[k] -= compressed[k];
@@ -349,7 +355,7 @@ Impulses Law::withFriction(const Impulses& smooth) {
         continue;
       }
       const auto& surface = problem_.contacts[c].target;
-      rough.contacts[c].target = {smooth[c][0] > 0 ? part * speed(c, 0, parting) : 0,
+      rough.contacts[c].target = {(smooth[c][0] > 0 ? part * parting(c, end) : 0) + surface[0],
                                   part * speed(c, 1, restituted) + surface[1],
                                   part * speed(c, 2, restituted) + surface[2]};
     }
@@ -382,10 +388,10 @@ Impulses Law::shortened(const Impulses& smooth, Impulses rough) const {
     if (over > 0x1p-44 * size) {
       fraction = std::min(fraction, limit / (limit + over));
     }
-    const double closing = -speed(c, 0, end);
+    const double closing = -parting(c, end);
     if (closing > rounding_) {
-      const double parting = std::max(0.0, speed(c, 0, start));
-      fraction = std::min(fraction, parting / (parting + closing));
+      const double opening = std::max(0.0, parting(c, start));
+      fraction = std::min(fraction, opening / (opening + closing));
     }
   }
   std::vector<double> way = end;
@@ -397,7 +403,8 @@ Impulses Law::shortened(const Impulses& smooth, Impulses rough) const {
     const auto& surface = problem_.contacts[c].target;
     slope -= contacts_[c].holds
                  ? 0
-                 : (rough[c][1] - smooth[c][1]) * surface[1] + (rough[c][2] - smooth[c][2]) * surface[2];
+                 : (rough[c][0] - smooth[c][0]) * surface[0] + ((rough[c][1] - smooth[c][1]) * surface[1] +
+                                                                (rough[c][2] - smooth[c][2]) * surface[2]);
   }
   const double curvature = product(way, way);
   const double full = product(start, start) / 2;
@@ -424,7 +431,7 @@ ContactResiduals resolveTogether(std::span<const ImpactBody> bodies, std::span<c
     const ImpactContact& only = contacts[0];
     const ImpactBody& b = bodies[static_cast<std::size_t>(only.b)];
     shares[0] = resolveSingleImpact(bodies[static_cast<std::size_t>(only.a)],
-                                    isImmovable(*b.mass) ? nullptr : &b, only);
+                                    isImmovable(*b.mass) && !b.isDriven() ? nullptr : &b, only);
     shares[0].normal = only.normal;
     return {};
   }

@@ -47,6 +47,11 @@ Side sideOf(const ImpactBody& body, const Vec3& arm, const Vec3& normal) {
   // n·n differs from 1 by rounding, which would make the energy drift.
   side.inverseEffectiveMass =
       mass.inverseMass * (twoSquare(normal.x()) + twoSquare(normal.y()) + twoSquare(normal.z()));
+  if (body.isDriven()) {  // n·(ω × arm) = ω·(arm × n)
+    for (std::size_t i = 0; i < 3; ++i) {
+      side.speed = side.speed + momentum[static_cast<Eigen::Index>(i)] * side.torque[i];
+    }
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     const DoubleDouble spin = mass.inverseInertiaBody[static_cast<Eigen::Index>(i)] * torqueBody[i];
     side.speed = side.speed + spin * momentumBody[i];
@@ -86,6 +91,9 @@ Vec3 yield(const ImpactBody& body, const Vec3& arm, const Vec3& impulse) {
 }
 
 Vec3 pointVelocity(const ImpactBody& body, const Vec3& arm) {
+  if (isImmovable(*body.mass)) {
+    return body.state->velocity + body.state->angularMomentum.cross(arm);
+  }
   const Mat3& a = body.state->pose.worldFromBody;
   const Vec3 momentumBody = a.transpose() * body.state->angularMomentum;
   const Vec3 spin = a * body.mass->inverseInertiaTimes(momentumBody);

@@ -94,6 +94,10 @@ BodyState stateIn(const CrowdStep& step, const MassProperties& mass, double elap
   return stateWithin(step, mass, elapsed);
 }
 
+BodyState stateIn(const Driven& driven, const MassProperties& /*mass*/, double elapsed) {
+  return stateOf(driven.at(elapsed));
+}
+
 // Cubic Hermite interpolation between values `from` and `to` with slopes `rateFrom` and `rateTo`, by s.
 template <class Vector>
 Polynomial<Vector> cubic(const Vector& from, const Vector& rateFrom, const Vector& to, const Vector& rateTo,

@@ -5,6 +5,7 @@
 
 #include "physics/motion/flight.h"
 #include "physics/world/body.h"
+#include "physics/world/course.h"
 
 namespace careen {
 
@@ -53,12 +54,7 @@ Vec3 positionAt(const ContactStep& step, double elapsed);
 Vec3 velocityAt(const ContactStep& step, double elapsed);
 Quat attitudeAt(const ContactStep& step, double elapsed);
 /// Upper bounds over a contact step.
-struct StepBounds {
-  double speed = 0;                ///< [m/s] of the centre
-  double acceleration = 0;         ///< [m/s²] likewise
-  double angularSpeed = 0;         ///< [rad/s]
-  double angularAcceleration = 0;  ///< [rad/s²]
-};
+using StepBounds = MotionRates;
 StepBounds boundsOf(const ContactStep& step);
 
 /// From one row of a table of poses to the next: its states at both ends, bit for bit. Between them positions
@@ -73,7 +69,8 @@ struct SampledStep {
 
 /// Motion of one body until its next event. To add a motion: one more type here, the last,
 /// because files store its index, and one more stateIn in motion.cpp.
-using Motion = std::variant<Rest, EulerStep, Flight, SteppedFlight, ContactStep, CrowdStep, SampledStep>;
+using Motion =
+    std::variant<Rest, EulerStep, Flight, SteppedFlight, ContactStep, CrowdStep, SampledStep, Driven>;
 
 /// State of the body `elapsed` [s] after the motion began.
 BodyState stateAt(const Motion& motion, const MassProperties& mass, double elapsed);

@@ -7,7 +7,11 @@ namespace careen {
 Moving motionOfBelt(const CrowdMembers& members, const PileManifold& manifold, const ContactFrame& frame,
                     const PilePoint& point) {
   const Vec3& n = frame.normal;
-  const bool isOfB = members[manifold.b].held;
+  const bool isOfB = members[manifold.b].held();
+  const PileBody& held = members[isOfB ? manifold.b : manifold.a];
+  if (held.isDriven()) {
+    return {.velocity = held.velocity, .omega = held.omega};
+  }
   const PileBody& on = members[isOfB ? manifold.a : manifold.b];
   const Vec3 armOn = isOfB ? point.world : Vec3(point.world + members.apart(manifold.a, manifold.b));
   // Velocities are those of the middle of the step: where what is on it is then.
@@ -18,9 +22,21 @@ Moving motionOfBelt(const CrowdMembers& members, const PileManifold& manifold, c
   return {.velocity = along - turning.cross(arm), .omega = turning};
 }
 
+Vec3 velocityOfBelt(const CrowdMembers& members, const PileManifold& manifold, const ContactFrame& frame,
+                    const PilePoint& point) {
+  for (const bool isOfB : {false, true}) {
+    const PileBody& body = members[isOfB ? manifold.b : manifold.a];
+    if (body.isDriven()) {
+      const Vec3 arm = isOfB ? Vec3(point.world + members.apart(manifold.a, manifold.b)) : point.world;
+      return (isOfB ? 1 : -1) * (body.velocity + body.omega.cross(arm));
+    }
+  }
+  return manifold.material.surface.along(frame.normal, members[manifold.a].position + point.world);
+}
+
 BeltBlock bodiesOnBelt(const CrowdMembers& members, const PileManifold& manifold, int belt) {
-  return members[manifold.b].held ? BeltBlock{.a = manifold.a, .b = belt}
-                                  : BeltBlock{.a = belt, .b = manifold.b};
+  return members[manifold.b].held() ? BeltBlock{.a = manifold.a, .b = belt}
+                                    : BeltBlock{.a = belt, .b = manifold.b};
 }
 
 }  // namespace careen

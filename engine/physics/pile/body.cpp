@@ -24,6 +24,8 @@ Quat turnOf(const Vec3& theta) {
 
 }  // namespace
 
+const CoursePart kStillPart;
+
 void setAttitude(PileBody& body, const Quat& attitude) {
   body.attitude = unit<double>(attitude);
   body.axes = body.attitude.toRotationMatrix();
@@ -47,8 +49,8 @@ PileBody pileBody(const Body& body, const BodyState& state) {
   result.axes = state.pose.worldFromBody;
   result.velocity = state.velocity;
   result.angularMomentum = state.angularMomentum;
-  result.held = isImmovable(body.mass);
-  if (result.held) {
+  result.drivenBy = isImmovable(body.mass) ? &kStillPart : nullptr;
+  if (result.held()) {
     result.velocity = Vec3::Zero();
     result.angularMomentum = Vec3::Zero();
   }
@@ -56,12 +58,19 @@ PileBody pileBody(const Body& body, const BodyState& state) {
   return result;
 }
 
+void putDriven(PileBody& body, double time) {
+  const Kinematics now = body.drivenBy->at(time);
+  body.position = now.pose.position;
+  body.attitude = unit<double>(Quat(now.pose.worldFromBody));
+  body.axes = body.attitude.toRotationMatrix();
+}
+
 PileBody pileBody(const Wall& wall) {
   PileBody result;
   result.halfSpace = &wall;
   result.length = std::numeric_limits<double>::infinity();
   result.material = wall.material;
-  result.held = true;
+  result.drivenBy = &kStillPart;
   return result;
 }
 
@@ -122,6 +131,13 @@ Vec3 freeSpinRate(const PileBody& body, const Vec3& omega) {
   const Mat3 axes = body.principalAxes();
   const Vec3 spin = axes.transpose() * omega;
   return axes * body.inverseInertiaBody.cwiseProduct(body.inertiaBody.cwiseProduct(spin).cross(spin));
+}
+
+Vec3 spinBetween(const Quat& from, const Quat& to, double length) {
+  const Quat turn = from.conjugate() * to;
+  const double z = turn.vec().squaredNorm();
+  const double angle = 2 * (1 + z * (1.0 / 6 + z * (3.0 / 40 + z * (15.0 / 336))));
+  return (turn.w() < 0 ? -angle : angle) / length * turn.vec();
 }
 
 void turnBy(PileBody& body, const Vec3& rotation) { setAttitude(body, turnOf(rotation) * body.attitude); }

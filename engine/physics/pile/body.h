@@ -8,6 +8,8 @@
 
 namespace careen {
 
+/// Of what is held and does not move.
+extern const CoursePart kStillPart;
 /// A box of a body of a pile, or a half-space, where it is.
 struct PileBox {
   const Wall* halfSpace = nullptr;  ///< its shape; null: a box, of these half sizes
@@ -46,13 +48,18 @@ struct PileBody : PileBox {
   double turned = 0;   ///< [m] the part of `path` that its rotation about its centre accounts for
   double turning = 0;  ///< [m] the same for the next substep
   int cluster = -1;    ///< if asleep: its cluster; all bodies of a cluster wake together
-  bool held = false;
+  /// Of what is held: how it moves, or kStillPart. Of what is driven the velocities are the means of the
+  /// step.
+  const CoursePart* drivenBy = nullptr;
   bool asleep = false;
   bool absent = false;  ///< a place that was left
 
   int partCount() const { return parts == nullptr ? 1 : static_cast<int>(parts->size()); }
-  /// Does not move in this step.
-  bool still() const { return held || asleep || absent; }
+  bool held() const { return drivenBy != nullptr; }
+  bool isDriven() const { return held() && drivenBy != &kStillPart; }
+  /// No force moves it in this step; and it is not driven either.
+  bool still() const { return held() || asleep || absent; }
+  bool stays() const { return still() && !isDriven(); }
 
   /// The principal axes, along which the inertia is diagonal, in the world.
   Mat3 principalAxes() const { return bodyFromPrincipal == nullptr ? axes : Mat3(axes * *bodyFromPrincipal); }
@@ -74,6 +81,9 @@ PileBody pileBody(const Body& body, const BodyState& state);
 PileBody pileBody(const Wall& wall);
 BodyState stateOf(const PileBody& body);
 
+/// Puts what is driven where it is at a time [s].
+void putDriven(PileBody& body, double time);
+
 /// ω = A Ī⁻¹ Aᵀ L (Eq. 18).
 void deriveOmega(PileBody& body);
 
@@ -92,6 +102,10 @@ void turnFree(PileBody& body, double h);
 
 /// [rad/s²] ω̇ = I⁻¹ (L × ω) of a free body with that ω, world.
 Vec3 freeSpinRate(const PileBody& body, const Vec3& omega);
+
+/// [rad/s] Body frame: of the turn from the one to the other in that time. Its angle is 2 asin of the length
+/// of the vector part, here to eighth order.
+Vec3 spinBetween(const Quat& from, const Quat& to, double length);
 
 /// Rotates by a small rotation vector in the world frame, as the position projection does.
 void turnBy(PileBody& body, const Vec3& rotation);

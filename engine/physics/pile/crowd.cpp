@@ -51,10 +51,16 @@ Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team)
 
 // ---- Members.
 
-std::size_t Crowd::admit(std::size_t body, const BodyState& state, const Quat& attitude, double past) {
+std::size_t Crowd::admit(std::size_t body, const BodyState& state, const Quat& attitude, double past,
+                         const CoursePart* part) {
   PileBody added = pileBody(members_.world.bodies[body], state);
   added.attitude = attitude;
-  atRest_ = atRest_ && added.held;
+  if (part != nullptr) {
+    added.drivenBy = part;
+    added.velocity = state.velocity;
+    added.omega = state.angularMomentum;
+  }
+  atRest_ = atRest_ && added.stays();
   const std::size_t index = place(added, body);
   memory_.places[index].past = past;
   return index;
@@ -62,7 +68,7 @@ std::size_t Crowd::admit(std::size_t body, const BodyState& state, const Quat& a
 
 std::size_t Crowd::admitAtRest(std::size_t body, const Pose& pose, std::optional<std::size_t> cluster) {
   PileBody added = pileBody(members_.world.bodies[body], {.pose = pose});
-  added.asleep = !added.held;
+  added.asleep = !added.held();
   const std::size_t index = place(added, body);
   members_[index].cluster = static_cast<int>(cluster.value_or(index));
   return index;
@@ -104,7 +110,7 @@ BodyState Crowd::stateAtEnd(std::size_t place) const {
 double Crowd::fastest() const {
   double fastest = 0;
   for (const PileBody& body : members_.bodies) {
-    fastest = body.still() ? fastest : std::max(fastest, body.velocity.norm());
+    fastest = body.stays() ? fastest : std::max(fastest, body.velocity.norm());
   }
   return fastest;
 }
@@ -119,7 +125,8 @@ double Crowd::penetration() const {
 
 // ---- A step.
 
-double Crowd::step(double most) {
+double Crowd::step(double most, double time) {
+  members_.time = time;
   if (++figures_.steps % kStepsPerSorting == 0) {
     contacts_.sort();
   }
@@ -140,10 +147,14 @@ double Crowd::chooseLength() const {
   double bending = 0;  // [m/s²]
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const PileBody& body = members_[i];
-    if (!body.still()) {
+    if (!body.stays()) {
       const double times = articulations_.isJoined(static_cast<int>(i)) ? kJoinedBend : 1;
       fastest = std::max(fastest, (body.velocity.norm() + longest * members_.gravity) / body.length);
       bending = std::max(bending, times * body.radius * body.omega.squaredNorm());
+      if (body.isDriven()) {
+        const MotionRates rates = boundsOf(body.drivenBy->motion);
+        bending = std::max(bending, rates.acceleration + body.radius * rates.angularAcceleration);
+      }
     }
   }
   double h = longest;
@@ -162,6 +173,7 @@ double Crowd::chooseLength() const {
 void Crowd::take(double length, Shifts shifts) {
   members_.h = length;
   members_.span = 0.5 * (memory_.length + length);
+  members_.drive();
   loads_.find();
   sleep_.wakeDisturbed();
   do {

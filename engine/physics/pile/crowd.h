@@ -69,15 +69,16 @@ class Crowd {
   Crowd(const World& world, double tolerance, std::shared_ptr<Team> team = std::make_shared<Team>(1));
 
   /// Adds a body of the world, by its index in it; returns its place. `past` [s] is that of JoinedSteps: how
-  /// long its last step was.
+  /// long its last step was; `part`: by what it is driven, if it is.
   std::size_t admit(std::size_t body, const BodyState& state, const Quat& attitude,
-                    double past = std::numeric_limits<double>::max());
+                    double past = std::numeric_limits<double>::max(), const CoursePart* part = nullptr);
   /// Adds one that sleeps until it is pushed, together with its `cluster`: a place, perhaps its own.
   std::size_t admitAtRest(std::size_t body, const Pose& pose, std::optional<std::size_t> cluster);
   void dismiss(std::size_t place);
 
-  /// Advances by one step of at most `most` [s] and returns its length.
-  double step(double most);
+  /// Advances by one step of at most `most` [s] and returns its length. What is driven is so from that time
+  /// [s] on.
+  double step(double most, double time = 0);
   /// Takes the last step again with that length [s], shorter than it was, and with those admitted since, who
   /// begin where it began. Returns its length, perhaps shorter still.
   double stepAgain(double length);

@@ -179,6 +179,9 @@ void CrowdBounces::giveBack(PileSolver& solver) const {
       Energies& all = energies[together.root(at(body))];
       all.taken += point.taken;
       all.before += workOfBelt(point, solver);
+      const double added = (point.whole - point.plastic) * drivenSpeed(point);
+      all.before -= added;
+      all.slope -= added;
     }
   }
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -192,19 +195,29 @@ void CrowdBounces::giveBack(PileSolver& solver) const {
   }
 }
 
-// [J] That friction of a surface that moves did in the step: what impulses take is that more than what is
-// missing.
+// [J] That a surface that moves did in the step: what impulses take is that more than what is missing.
 double CrowdBounces::workOfBelt(const ReachedPoint& point, const PileSolver& solver) const {
   const PileManifold& manifold = contacts_[point.slot];
   const PilePoint& at = manifold.points[careen::at(point.index)];
-  if (!isOnBelt(manifold) || at.row < 0) {
+  if (!isOnBelt(members_, manifold) || at.row < 0) {
     return 0;
   }
   const ContactFrame& frame = manifold.frameOf(point.index);
-  const Vec3 friction =
-      solver.tangential1(at.row) * frame.tangent1 + solver.tangential2(at.row) * frame.tangent2;
-  return dot(friction,
-             manifold.material.surface.along(frame.normal, members_[manifold.a].position + at.world));
+  const bool isDriven = members_[manifold.a].isDriven() || members_[manifold.b].isDriven();
+  const Vec3 impulse = frame.inWorld(
+      {isDriven ? solver.normalImpulse(at.row) : 0, solver.tangential1(at.row), solver.tangential2(at.row)});
+  return dot(impulse, velocityOfBelt(members_, manifold, frame, at));
+}
+
+// [m/s] Along the normal, of something driven: what restitution adds is relative to it, and none of what it
+// did before.
+double CrowdBounces::drivenSpeed(const ReachedPoint& point) const {
+  const PileManifold& manifold = contacts_[point.slot];
+  if (!members_[manifold.a].isDriven() && !members_[manifold.b].isDriven()) {
+    return 0;
+  }
+  return dot(point.normal, velocityOfBelt(members_, manifold, manifold.frameOf(point.index),
+                                          manifold.points[careen::at(point.index)]));
 }
 
 void CrowdBounces::addEnergies(const ReachedBody& reached, const PileSolver& solver, Energies& all) const {

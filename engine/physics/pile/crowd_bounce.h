@@ -69,6 +69,7 @@ class CrowdBounces {
   void beginFrom(PileSolver& solver);
   void giveBack(PileSolver& solver) const;
   double workOfBelt(const ReachedPoint& point, const PileSolver& solver) const;
+  double drivenSpeed(const ReachedPoint& point) const;
   void addEnergies(const ReachedBody& reached, const PileSolver& solver, Energies& all) const;
   void note(const PileSolver& solver);
 

@@ -44,8 +44,8 @@ void CrowdContacts::begin() {
   members_.forEach([&](std::size_t i) {
     PileBody& body = members_[i];
     const double fall = members_.h * (members_.h + body.behind) * members_.gravity;
-    body.turning = body.still() ? 0 : members_.h * body.radius * body.omega.norm();
-    body.ahead = body.still()
+    body.turning = body.stays() ? 0 : members_.h * body.radius * body.omega.norm();
+    body.ahead = body.stays()
                      ? 0
                      : members_.h * (body.velocity.norm() + (members_.h + body.behind) * members_.gravity) +
                            body.turning;
@@ -86,7 +86,7 @@ void CrowdContacts::lookAtAll() {
 
 void CrowdContacts::lookAt(std::size_t k, Looking& looking) {
   PilePair& pair = pairs_.pairs()[k];
-  if (isClear(pair) || looked_[k] != Looked::kNot || (members_[pair.a].still() && members_[pair.b].still())) {
+  if (isClear(pair) || looked_[k] != Looked::kNot || (members_[pair.a].stays() && members_[pair.b].stays())) {
     return;
   }
   const bool isNew = pair.slot < 0;
@@ -131,7 +131,7 @@ double CrowdContacts::wayAhead(const PilePair& pair) const {
     return a.ahead;
   }
   const Vec3 relative =
-      (a.still() ? Vec3(Vec3::Zero()) : a.velocity) - (b.still() ? Vec3(Vec3::Zero()) : b.velocity);
+      (a.stays() ? Vec3(Vec3::Zero()) : a.velocity) - (b.stays() ? Vec3(Vec3::Zero()) : b.velocity);
   return members_.h * (relative.norm() + (members_.h + a.behind + b.behind) * members_.gravity) + a.turning +
          b.turning;
 }
@@ -227,9 +227,10 @@ void CrowdContacts::addPresentRows(const PileManifold& manifold, PileSolver& sol
     const ContactFrame& frame = manifold.frameOf(k);
     if (begun != &frame) {
       const BeltBlock block =
-          isOnBelt(manifold) ? bodiesOnBelt(members_, manifold,
-                                            solver.addBelt(motionOfBelt(members_, manifold, frame, point)))
-                             : BeltBlock{.a = manifold.a, .b = manifold.b};
+          isOnBelt(members_, manifold)
+              ? bodiesOnBelt(members_, manifold,
+                             solver.addBelt(motionOfBelt(members_, manifold, frame, point)))
+              : BeltBlock{.a = manifold.a, .b = manifold.b};
       solver.beginBlock(block.a, block.b, manifold.material.friction, frame, apart);
       begun = &frame;
     }

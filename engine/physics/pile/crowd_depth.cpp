@@ -53,14 +53,14 @@ void CrowdDepth::findTurns() {
   turns_.resize(members_.size());
   members_.forEach([&](std::size_t i) {
     const Quat by = members_[i].attitude * members_.start[i].attitude.conjugate();
-    turns_[i] = members_[i].still() ? Vec3(Vec3::Zero()) : Vec3((by.w() < 0 ? -2 : 2) * by.vec());
+    turns_[i] = members_[i].stays() ? Vec3(Vec3::Zero()) : Vec3((by.w() < 0 ? -2 : 2) * by.vec());
   });
 }
 
 double CrowdDepth::now(const PilePair& pair) const {
   const PileBody& a = members_[pair.a];
   const PileBody& b = members_[pair.b];
-  if ((a.still() && b.still()) || (pair.slot < 0 && pair.clear > 0 && contacts_.wayLeft(pair) > 0)) {
+  if ((a.stays() && b.stays()) || (pair.slot < 0 && pair.clear > 0 && contacts_.wayLeft(pair) > 0)) {
     return 0;
   }
   const double motion = b.isBox() ? relativeMotion(a, b, members_.h) + members_.ways[at(pair.a)].shifted +

@@ -1,6 +1,7 @@
 #include "physics/pile/crowd_direct.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -16,6 +17,8 @@ constexpr int kMostFactorisations = 60;
 /// Of more than kFewRows in violent motion it does too: they get fewer, and one try in so many solves.
 constexpr int kFewFactorisations = 12;
 constexpr int kMostWait = 32;
+/// [1] Of a belt's speed: less of it along the normal is rounding.
+constexpr double kAlong = 0x1p-40;
 /// [1] Ratio of masses in contact from which Gauss–Seidel takes too long.
 constexpr double kHeavy = 16;
 /// [1] of the tolerance: what the residual of a step may move a body by in it.
@@ -116,10 +119,12 @@ void CrowdDirect::addRows(const PileSolver& solver) {
     const int a = include(row.a);
     const int b = include(row.b);
     const Vec3 ofBelts = beltAt(solver, row.b, row.armB) - beltAt(solver, row.a, row.armA);
+    const double closing = dot(row.axes[0], ofBelts);  // of what is driven; rounding, of what moves along
     problem_.add({.a = a,
                   .b = b,
                   .friction = row.friction,
-                  .target = {row.bound, dot(row.axes[1], ofBelts), dot(row.axes[2], ofBelts)}},
+                  .target = {row.bound + (std::fabs(closing) > kAlong * ofBelts.norm() ? closing : 0),
+                             dot(row.axes[1], ofBelts), dot(row.axes[2], ofBelts)}},
                  pointSide(row.axes, row.armA, 1), pointSide(row.axes, row.armB, -1), row.impulse);
   }
 }

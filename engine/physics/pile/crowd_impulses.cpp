@@ -92,6 +92,10 @@ double CrowdImpulses::loadBody(std::size_t place) {
   const PileBody& body = members_[place];
   const int index = static_cast<int>(place);
   solver_.setBody(index, body, memory_.tell * body.length / members_.h);
+  if (body.isDriven()) {
+    solver_.velocity(index) = body.velocity;
+    solver_.omega(index) = body.omega;
+  }
   if (body.still()) {
     return 0;
   }
@@ -145,7 +149,7 @@ PileSolver::Extent CrowdImpulses::lookForRows(PileManifold& manifold) const {
   PileSolver::Extent rows;
   const ContactFrame* begun = nullptr;
   manifold.meets = manifold.strikes = false;
-  const bool isOnBelt = careen::isOnBelt(manifold);
+  const bool isOnBelt = careen::isOnBelt(members_, manifold);
   for (int k = 0; k < manifold.count; ++k) {
     PilePoint& point = manifold.points[at(k)];
     const Vec3 relative = vA + solver_.omega(manifold.a).cross(point.world) - vB -
@@ -194,7 +198,7 @@ void CrowdImpulses::addRows(PileManifold& manifold, PileSolver::Extent next) {
     }
     if (next.rows > first) {
       const BeltBlock block =
-          isOnBelt(manifold)
+          isOnBelt(members_, manifold)
               ? bodiesOnBelt(members_, manifold,
                              solver_.setBelt(next.belts++, motionOfBelt(members_, manifold, frame, onBelt)))
               : BeltBlock{.a = manifold.a, .b = manifold.b};

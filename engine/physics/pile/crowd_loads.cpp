@@ -108,9 +108,9 @@ void CrowdLoads::find() {
 }
 
 Vec3 CrowdLoads::acceleration(std::size_t place) const {
-  return loads_.empty()         ? members_.world.gravity
-         : members_[place].held ? Vec3(Vec3::Zero())
-                                : Vec3(members_[place].inverseMass * loads_[members_.listed[place]].force);
+  return loads_.empty()           ? members_.world.gravity
+         : members_[place].held() ? Vec3(Vec3::Zero())
+                                  : Vec3(members_[place].inverseMass * loads_[members_.listed[place]].force);
 }
 
 Vec3 CrowdLoads::accelerationBefore(std::size_t place) const {

@@ -31,7 +31,21 @@ std::size_t CrowdMembers::add(const PileBody& body, std::size_t index) {
   bodies[place] = start[place] = body;
   ways[place] = {};
   listed[place] = index;
+  if (body.isDriven()) {
+    driven.push_back(place);
+  }
   return place;
+}
+
+void CrowdMembers::drive() {
+  for (const std::size_t place : driven) {
+    PileBody& body = bodies[place];
+    PileBody to = body;
+    putDriven(body, time);
+    putDriven(to, time + h);
+    body.velocity = (to.position - body.position) / h;
+    body.omega = body.attitude * spinBetween(body.attitude, to.attitude, h);
+  }
 }
 
 void CrowdMembers::remove(std::size_t place) {
@@ -59,7 +73,7 @@ void CrowdMembers::goBack() {
 Pose CrowdMembers::between(std::size_t place, double part) const {
   const PileBody& from = start[place];
   const PileBody& to = bodies[place];
-  if (part == 0 || to.still()) {
+  if (part == 0 || to.stays()) {
     return {.position = from.position, .worldFromBody = from.axes};
   }
   if (part == 1) {

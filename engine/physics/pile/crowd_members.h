@@ -43,6 +43,8 @@ struct CrowdMembers {
   void begin() {
     forEach([&](std::size_t i) { start[i] = bodies[i]; });
   }
+  /// What is driven has from now on the velocities with which it gets to where it is after the step.
+  void drive();
   /// To where it began, but for what it woke and the ways gone.
   void goBack();
 
@@ -71,6 +73,7 @@ struct CrowdMembers {
   double tolerance = 0;          ///< [m]
   double scale = 1;              ///< [1] root of the tolerance over the usual one
   double gravity = 0;            ///< [m/s²] its size
+  double time = 0;               ///< [s] when it begins
   double h = 0;                  ///< [s] length of the step
   double span = 0;               ///< [s] to its middle from that of the step before: its impulses
   std::vector<PileBody> bodies;  ///< now
@@ -78,6 +81,7 @@ struct CrowdMembers {
   std::vector<Way> ways;
   std::vector<std::size_t> listed;  ///< index in the world, among bodies or walls
   std::vector<int> free;            ///< places that were left
+  std::vector<std::size_t> driven;  ///< places of what is
 };
 
 }  // namespace careen

@@ -24,6 +24,11 @@ void moveBody(CrowdMembers& members, const CrowdLoads& loads, const CrowdImpulse
   const double h = members.h;
   way.shifted = impulses.shiftOf(index);
   way.moved = false;
+  if (body.isDriven()) {
+    body.path += body.ahead;
+    body.turned += body.turning;
+    putDriven(body, members.time + h);
+  }
   if (body.still()) {
     return;
   }

@@ -11,21 +11,12 @@ namespace {
 
 constexpr double kLasting = 4;  // [1] of gravity × step: larger changes of velocity are those of impacts
 
-// [rad/s] Body frame: of the turn from the one to the other in that time. Its angle is 2 asin of the length
-// of the vector part, here to eighth order.
-Vec3 spinBetween(const Quat& from, const Quat& to, double length) {
-  const Quat turn = from.conjugate() * to;
-  const double z = turn.vec().squaredNorm();
-  const double angle = 2 * (1 + z * (1.0 / 6 + z * (3.0 / 40 + z * (15.0 / 336))));
-  return (turn.w() < 0 ? -angle : angle) / length * turn.vec();
-}
-
 }  // namespace
 
 CrowdExtent CrowdPath::extent(double length) const {
   CrowdExtent extent;
   for (const PileBody& body : members_.bodies) {
-    if (!body.absent && !body.held) {
+    if (!body.absent && !body.held()) {
       const double fall = (length + body.behind) * members_.gravity;
       const double way = body.asleep ? 0 : length * (body.velocity.norm() + fall);
       extent.include(body.position, body.radius + way);

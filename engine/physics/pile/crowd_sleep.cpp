@@ -62,8 +62,9 @@ bool CrowdSleep::wouldPush(const PilePair& pair) const {
   const PileBody& a = members_[pair.a];
   const PileBody& b = members_[pair.b];
   const auto speed = [&](const PileBody& body, const Vec3& arm) {
-    return body.still() ? Vec3(Vec3::Zero())
-                        : Vec3(body.velocity + members_.h * members_.world.gravity + body.omega.cross(arm));
+    return body.isDriven() ? Vec3(body.velocity + body.omega.cross(arm))
+           : body.still()  ? Vec3(Vec3::Zero())
+                          : Vec3(body.velocity + members_.h * members_.world.gravity + body.omega.cross(arm));
   };
   const double heavy = a.asleep ? a.inverseMass : b.inverseMass;
   const double light = a.asleep ? b.inverseMass : a.inverseMass;
@@ -84,7 +85,7 @@ bool CrowdSleep::wouldPush(const PilePair& pair) const {
 bool CrowdSleep::isHalfAsleep(const PileManifold& manifold) const {
   const PileBody& a = members_[manifold.a];
   const PileBody& b = members_[manifold.b];
-  return !a.held && !b.held && a.asleep != b.asleep;
+  return !a.held() && !b.held() && a.asleep != b.asleep;
 }
 
 // Of the two of a manifold that is half asleep.
@@ -210,6 +211,7 @@ void CrowdSleep::wakeNeighbours() {
 // Bodies that push each other, or sleep together.
 void CrowdSleep::findClusters() {
   grip_.assign(members_.size(), kFrictionless);
+  isCarried_.assign(members_.size(), 0);
   clusters_.reset(members_.size());
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (members_[i].asleep) {
@@ -225,7 +227,9 @@ void CrowdSleep::findClusters() {
     const std::size_t b = at(manifold.b);
     grip_[a] = std::max(grip_[a], manifold.material.friction);
     grip_[b] = std::max(grip_[b], manifold.material.friction);
-    if (!members_[a].held && !members_[b].held) {
+    isCarried_[a] = isCarried_[a] != 0 || members_[b].isDriven() ? 1 : 0;
+    isCarried_[b] = isCarried_[b] != 0 || members_[a].isDriven() ? 1 : 0;
+    if (!members_[a].held() && !members_[b].held()) {
       clusters_.join(a, b);
     }
   }
@@ -238,7 +242,9 @@ void CrowdSleep::joinArticulations() {
     return;
   }
   DisjointSets joined(members_.size());
-  const auto moves = [&](int place) { return place < CrowdArticulations::kOutside && !members_[place].held; };
+  const auto moves = [&](int place) {
+    return place < CrowdArticulations::kOutside && !members_[place].held();
+  };
   for (const CrowdArticulations::Listed& joint : articulations_.joints()) {
     if (moves(joint.a) && moves(joint.b)) {
       joined.join(at(joint.a), at(joint.b));
@@ -264,7 +270,7 @@ bool CrowdSleep::freeze() {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const PileBody& body = members_[i];
     const std::size_t root = clusters_.root(i);
-    if (body.held || body.absent || (body.asleep && quiet[root] == 0)) {
+    if (body.held() || body.absent || (body.asleep && quiet[root] == 0)) {
       continue;
     }
     if (quiet[root] == 0) {
@@ -295,11 +301,12 @@ void CrowdSleep::freeze(std::size_t place, int cluster) {
 }
 
 // At rest, or nearly so: the forces of the last step balanced but for that part of gravity, and its speed is
-// that part of what friction stops in a step.
+// that part of what friction stops in a step. What touches something driven never is.
 bool CrowdSleep::isQuiet(std::size_t place, double imbalance, double part) const {
   const PileBody& body = members_[place];
   const double speed = body.velocity.norm() + body.radius * body.omega.norm();
-  return body.still() || (members_.ways[place].unrest <= imbalance * members_.gravity * members_.h &&
+  return body.still() || (isCarried_[place] == 0 &&
+                          members_.ways[place].unrest <= imbalance * members_.gravity * members_.h &&
                           speed <= part * grip_[place] * members_.gravity * members_.h);
 }
 
@@ -342,7 +349,7 @@ void CrowdSleep::keepFar(std::vector<char>& marked) const {
       const PileManifold& manifold = contacts_[slot];
       const std::size_t a = at(manifold.a);
       const std::size_t b = at(manifold.b);
-      if (!members_[a].held && !members_[b].held) {
+      if (!members_[a].held() && !members_[b].held()) {
         layer[b] = layer[a] == next - 1 ? std::min(layer[b], next) : layer[b];
         layer[a] = layer[b] == next - 1 ? std::min(layer[a], next) : layer[a];
       }

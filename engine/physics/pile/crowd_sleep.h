@@ -63,10 +63,11 @@ class CrowdSleep {
   CrowdContacts& contacts_;
   const CrowdArticulations& articulations_;
   CrowdMemory& memory_;
-  PileSolver solver_;         // of certificates
-  std::vector<double> grip_;  // [1] largest friction coefficient at a body's contacts
-  DisjointSets clusters_;     // of bodies in resting contact
-  std::vector<char> woken_;   // by place: in this step
+  PileSolver solver_;            // of certificates
+  std::vector<double> grip_;     // [1] largest friction coefficient at a body's contacts
+  std::vector<char> isCarried_;  // by place: it touches something driven
+  DisjointSets clusters_;        // of bodies in resting contact
+  std::vector<char> woken_;      // by place: in this step
 };
 
 }  // namespace careen

@@ -72,10 +72,11 @@ PilePairs::Box PilePairs::sweptBox(const PileBody& body, const Vec3& gravity, do
   const Vec3 reach = body.axes.cwiseAbs() * body.halfExtents;
   const Vec3 middle = body.middle();
   Box box{.low = middle - reach, .high = middle + reach};
-  if (body.still()) {
+  if (body.stays()) {
     return box;
   }
-  const Vec3 moved = time * (body.velocity + (time + body.behind) * gravity);
+  const Vec3 moved =
+      time * (body.isDriven() ? body.velocity : Vec3(body.velocity + (time + body.behind) * gravity));
   const double turned = body.radius * std::min(1.0, body.omega.norm() * time);
   box.low += moved.cwiseMin(0) - Vec3::Constant(turned);
   box.high += moved.cwiseMax(0) + Vec3::Constant(turned);
@@ -90,7 +91,7 @@ bool PilePairs::findLeft(std::span<const PileBody> bodies, const Vec3& gravity, 
     for (std::size_t i = first; i < last; ++i) {
       const PileBody& body = bodies[i];
       const bool stays = body.absent || !body.isBox() ||
-                         (body.still() && fat_[i].low.x() <= fat_[i].high.x()) ||
+                         (body.stays() && fat_[i].low.x() <= fat_[i].high.x()) ||
                          fat_[i].holds(sweptBox(body, gravity, time));
       left_[i] = stays ? 0 : 1;
       if (!stays) {
@@ -185,7 +186,7 @@ void PilePairs::refit() {
 // A pair of two bodies that both left is found from the lower place.
 void PilePairs::findPartners(std::span<const PileBody> bodies, int body) {
   const Box& box = fat_[at(body)];
-  const bool held = bodies[at(body)].held;
+  const bool held = bodies[at(body)].held();
   std::array<int, kDeepest> stack;
   std::size_t size = 0;
   stack[size++] = 0;
@@ -203,7 +204,7 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, int body) {
     for (int k = node.first; k < node.first + node.count; ++k) {
       const int other = order_[at(k)];
       const bool twice = left_[at(other)] != 0 && other < body;
-      if (other != body && !twice && !(held && bodies[at(other)].held) && box.overlaps(fat_[at(other)]) &&
+      if (other != body && !twice && !(held && bodies[at(other)].held()) && box.overlaps(fat_[at(other)]) &&
           (!mayTouch_ || mayTouch_(body, other))) {
         const auto [a, b] = std::minmax(body, other);
         addFound(bodies[at(a)], a, bodies[at(b)], b);

@@ -83,8 +83,8 @@ int ReachedContacts::listManifold(int slot) {
         bodies_[at(bodies[side])].points.push_back(static_cast<int>(points_.size()));
       }
     }
-    if (isOnBelt(manifold)) {
-      point.slip -= manifold.material.surface.along(point.normal, members_[manifold.a].position + from.world);
+    if (isOnBelt(members_, manifold)) {
+      point.slip -= velocityOfBelt(members_, manifold, manifold.frameOf(k), from);
     }
     point.mass = massAlong(point, point.normal, 1);
     point.slip -= dot(point.normal, point.slip) * point.normal;

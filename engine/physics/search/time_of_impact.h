@@ -26,10 +26,10 @@
 // Where the middle of a box is not its centre of mass, Δ is that of the centres of mass, R the distance to
 // the furthest corner, and the constant part of f moves with the boxes: the bounds M stay.
 // ρ is the half diagonal across the edge. In a ContactStep the centre's path is no parabola: G then bounds
-// the relative acceleration in any direction. N keeps its length sin θ: its root is that of the unit
-// direction and M does not grow as θ → 0. Directions that rotate with the boxes converge quadratically; the
-// fixed one is cheap, also safe for nearly parallel edges, and gives the long time steps. Each proves its
-// step on its own, so the longest is taken.
+// the relative acceleration in any direction; nor is that of what is driven. N keeps its length sin θ: its
+// root is that of the unit direction and M does not grow as θ → 0. Directions that rotate with the boxes
+// converge quadratically; the fixed one is cheap, also safe for nearly parallel edges, and gives the long
+// time steps. Each proves its step on its own, so the longest is taken.
 //
 // Touching. A gap within rounding is zero (kGapRounding). If it closes, that is an impact; if not, the pair
 // is followed until it separates, or sinks by 4 roundings without ever closing at a speed above rounding
@@ -60,7 +60,7 @@ class AttitudeView {
   Attitude (*call_)(const void*, double);
 };
 
-/// A box in flight, at rest (velocity, acceleration and bounds zero), or in a ContactStep.
+/// A box in flight, at rest (velocity, acceleration and bounds zero), in a ContactStep, or driven.
 struct MovingBox {
   Vec3 halfExtents;
   Vec3 center = Vec3::Zero();           ///< [m] middle of the box, own frame
@@ -73,17 +73,22 @@ struct MovingBox {
   double angularAccelerationBound = 0;  ///< [rad/s²] likewise
   AttitudeView attitude;
   const ContactStep* step = nullptr;  ///< motion of the centre, in place of the above
-  double speedBound = 0;              ///< [m/s] of the centre in this step
+  double speedBound = 0;              ///< [m/s] of the centre in this step, or driven
   double accelerationBound = 0;       ///< [m/s²] likewise
+  const Driven* driven = nullptr;     ///< likewise
 
+  bool isOnParabola() const { return step == nullptr && driven == nullptr; }
   Vec3 positionAt(double time) const {
     const double elapsed = age + time;
-    return step != nullptr ? careen::positionAt(*step, elapsed)
-                           : position + (velocity + 0.5 * elapsed * acceleration) * elapsed;
+    return isOnParabola()    ? position + (velocity + 0.5 * elapsed * acceleration) * elapsed
+           : step != nullptr ? careen::positionAt(*step, elapsed)
+                             : driven->at(elapsed).pose.position;
   }
   Vec3 velocityAt(double time) const {
     const double elapsed = age + time;
-    return step != nullptr ? careen::velocityAt(*step, elapsed) : velocity + elapsed * acceleration;
+    return isOnParabola()    ? velocity + elapsed * acceleration
+           : step != nullptr ? careen::velocityAt(*step, elapsed)
+                             : driven->at(elapsed).velocity;
   }
   /// [m] From the centre of mass to the furthest corner.
   double radius() const { return (center.cwiseAbs() + halfExtents).norm(); }

@@ -33,7 +33,7 @@ class BoxApproach {
         turningA_(turningBound(a)),
         turningB_(turningBound(b)),
         turningBoth_((turningA_ + turningB_) + 2 * a.angularSpeedBound * b.angularSpeedBound),
-        steps_(a.step != nullptr || b.step != nullptr),
+        steps_(!a.isOnParabola() || !b.isOnParabola()),
         gravity_(steps_ ? accelerationOf(a) + accelerationOf(b) : acceleration_.norm()) {}
 
   double skip(double time) const;
@@ -60,7 +60,7 @@ class BoxApproach {
 
  private:
   static double accelerationOf(const MovingBox& box) {
-    return box.step != nullptr ? box.accelerationBound : box.acceleration.norm();
+    return box.isOnParabola() ? box.acceleration.norm() : box.accelerationBound;
   }
   Vec3 offsetAt(double time) const {
     return steps_ ? a_.positionAt(time) - b_.positionAt(time)
@@ -103,7 +103,7 @@ class BoxApproach {
   const double turningA_;
   const double turningB_;
   const double turningBoth_;
-  const bool steps_;      // one of them is in a ContactStep
+  const bool steps_;      // one of them is in a ContactStep, or driven
   const double gravity_;  // [m/s²] bounds the relative acceleration
 
   // At the current time:
@@ -219,11 +219,15 @@ void BoxApproach::moveTo(double time) {
     if (box.step != nullptr) {
       return sumOfSizes(box.step->position[0]) + box.speedBound * elapsed;
     }
+    if (box.driven != nullptr) {
+      return sumOfSizes(box.driven->pivot) + sumOfSizes(box.driven->arm) + sumOfSizes(box.driven->amplitude) +
+             box.speedBound * elapsed;
+    }
     return sumOfSizes(box.position) +
            elapsed * (sumOfSizes(box.velocity) + 0.5 * elapsed * sumOfSizes(box.acceleration));
   };
   const auto speeds = [](const MovingBox& box, double elapsed) {
-    if (box.step != nullptr) {
+    if (!box.isOnParabola()) {
       return box.speedBound;
     }
     return sumOfSizes(box.velocity) + elapsed * sumOfSizes(box.acceleration);

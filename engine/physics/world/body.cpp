@@ -100,22 +100,33 @@ Mat3 inverseInertiaWorld(const MassProperties& mass, const Mat3& worldFromBody) 
   return similarityTransform(mass.worldFromPrincipal(worldFromBody), inverse);
 }
 
+BodyState stateOf(const Kinematics& driven) {
+  return {.pose = driven.pose, .velocity = driven.velocity, .angularMomentum = driven.angularVelocity};
+}
+
 // Eqs. 18 and 17 through Eq. 20, evaluated right to left: three matrix-vector products instead of two of
 // matrices.
 Vec3 angularVelocity(const MassProperties& mass, const BodyState& state) {
+  if (isImmovable(mass)) {
+    return state.angularMomentum;
+  }
   const Mat3& worldFromBody = state.pose.worldFromBody;
   const Vec3 momentumBody = worldFromBody.transpose() * state.angularMomentum;
   return worldFromBody * mass.inverseInertiaTimes(momentumBody);
 }
 
 Vec3 angularMomentum(const MassProperties& mass, const Mat3& worldFromBody, const Vec3& angularVelocity) {
+  if (isImmovable(mass)) {
+    return angularVelocity;
+  }
   const Vec3 velocityBody = worldFromBody.transpose() * angularVelocity;
   return worldFromBody * mass.inertiaTimes(velocityBody);
 }
 
 double kineticEnergy(const MassProperties& mass, const BodyState& state) {
-  return 0.5 * mass.mass * state.velocity.squaredNorm() +
-         0.5 * dot(angularVelocity(mass, state), state.angularMomentum);
+  return isImmovable(mass) ? 0
+                           : 0.5 * mass.mass * state.velocity.squaredNorm() +
+                                 0.5 * dot(angularVelocity(mass, state), state.angularMomentum);
 }
 
 Pose boxPose(const Body& body, const Pose& pose) {

@@ -6,6 +6,7 @@
 
 #include "core/math/linear_algebra.h"
 #include "core/math/pose.h"
+#include "physics/world/course.h"
 
 namespace careen {
 
@@ -82,12 +83,14 @@ Material touching(const Material& a, const Material& b);
 Material swapped(const Material& pair);
 
 /// State of one body, world frame. L, not ω, is the primary state: torque integrates to it, and a free body
-/// conserves it.
+/// conserves it. What is held has no L: it has its ω there, as if its inertia were 1 kg m².
 struct BodyState {
   Pose pose = {};
   Vec3 velocity = Vec3::Zero();         ///< [m/s] of the centre of mass
   Vec3 angularMomentum = Vec3::Zero();  ///< [kg m²/s] about the centre of mass
 };
+
+BodyState stateOf(const Kinematics& driven);
 
 /// I⁻¹ = A Ī⁻¹ Aᵀ (Eq. 20), a similarity transform.
 Mat3 inverseInertiaWorld(const MassProperties& mass, const Mat3& worldFromBody);
@@ -129,6 +132,7 @@ struct Body {
   MassProperties mass;
   Material material;
   BodyState initial;
+  Course course = {};                ///< of what is held and moves by itself
   std::vector<BodyPart> parts = {};  ///< none: the box is the body
   /// [m] Of the corners of its parts, body frame, those that may touch a half-space.
   std::vector<Vec3> partCorners = {};

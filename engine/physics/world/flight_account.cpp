@@ -10,7 +10,7 @@
 namespace careen {
 
 FlightAccount::FlightAccount(const World& world)
-    : world_(world), bodies_(world.bodies.size()), mayGain_(hasBelts(world)) {
+    : world_(world), bodies_(world.bodies.size()), mayGain_(hasBelts(world) || hasCourses(world)) {
   if (!world.springs.empty() || !world.joints.empty()) {
     for (const Body& body : world.bodies) {
       states_.push_back(body.initial);

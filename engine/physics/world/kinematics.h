@@ -1,8 +1,23 @@
 #pragma once
 
 #include "core/math/linear_algebra.h"
+#include "core/math/pose.h"
 
 namespace careen {
+
+/// A rigid motion at one moment, world frame.
+struct Kinematics {
+  Pose pose;
+  Vec3 velocity = Vec3::Zero();         ///< [m/s] of the pose's origin
+  Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s]
+  bool isDriven = false;                ///< of what is held and moves by itself: only then has it the others
+  Vec3 acceleration = Vec3::Zero();     ///< [m/s²]
+  Vec3 angularAcceleration = Vec3::Zero();  ///< [rad/s²]
+
+  Vec3 velocityAt(const Vec3& arm) const { return velocity + angularVelocity.cross(arm); }
+  /// [m/s²] Of the point at that arm, but for ω×(ω×arm).
+  Vec3 accelerationAt(const Vec3& arm) const { return acceleration + angularAcceleration.cross(arm); }
+};
 
 // A point b fixed in a body whose centre of mass is o: r = A r̄ leads from o to b, world frame. Its position,
 // b = o + r (Eq. 11), is Pose::worldPoint.

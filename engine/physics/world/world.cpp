@@ -20,6 +20,11 @@ bool hasBelts(const World& world) {
          std::any_of(world.bodies.begin(), world.bodies.end(), moves);
 }
 
+bool hasCourses(const World& world) {
+  return std::any_of(world.bodies.begin(), world.bodies.end(),
+                     [](const Body& body) { return !body.course.empty(); });
+}
+
 Vec3 gravityAt(const World& world, double time) {
   const auto after = std::find_if(world.gravityChanges.begin(), world.gravityChanges.end(),
                                   [&](const GravityChange& change) { return change.time > time; });

@@ -64,8 +64,9 @@ struct World {
   std::vector<std::pair<int, int>> apart;  ///< bodies that pass through each other, the lesser first; sorted
 };
 
-/// Whether a surface moves along itself: it may give energy.
+/// Whether a surface moves along itself: it may give energy. And whether something held moves by itself.
 bool hasBelts(const World& world);
+bool hasCourses(const World& world);
 /// [m/s²] Gravity just after a moment [s], and its mean from one moment to another.
 Vec3 gravityAt(const World& world, double time);
 Vec3 meanGravity(const World& world, double from, double to);

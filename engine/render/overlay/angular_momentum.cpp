@@ -9,8 +9,8 @@ constexpr OverlayKind kAngularMomentumOverlay = {
                            .name = "angular momentum",
                            .unit = "kg m²/s",
                            .color = kViolet,
-                           .ofBody = [](const MassProperties& /*mass*/, const BodyState& state) -> Vec3 {
-                             return state.angularMomentum;
+                           .ofBody = [](const MassProperties& mass, const BodyState& state) -> Vec3 {
+                             return isImmovable(mass) ? Vec3(Vec3::Zero()) : state.angularMomentum;
                            }},
     .add = addArrows};
 

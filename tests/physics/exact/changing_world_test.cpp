@@ -29,14 +29,14 @@ TEST(ChangingWorld, changesItsGravityInOrder) {
   world.gravity = Vec3(0, 0, -1);
   world.gravityChanges = {{.time = 1, .gravity = Vec3(1, 0, 0)}, {.time = 3, .gravity = Vec3(0, 2, 0)}};
   ChangingWorld changing(world);
-  EXPECT_EQ(changing.nextGravity(), 1);
+  EXPECT_EQ(changing.nextJump(), 1);
   EXPECT_EQ(changing.world().gravity, Vec3(0, 0, -1));
-  changing.changeGravity();
+  changing.jump();
   EXPECT_EQ(changing.world().gravity, Vec3(1, 0, 0));
-  EXPECT_EQ(changing.nextGravity(), 3);
-  changing.changeGravity();
+  EXPECT_EQ(changing.nextJump(), 3);
+  changing.jump();
   EXPECT_EQ(changing.world().gravity, Vec3(0, 2, 0));
-  EXPECT_TRUE(std::isinf(changing.nextGravity()));
+  EXPECT_TRUE(std::isinf(changing.nextJump()));
 }
 
 TEST(ChangingWorld, samplesAtMultiplesOfItsPeriod) {

@@ -12,12 +12,14 @@
 #include "physics/world/given_inertia.h"
 #include "support/exact_runs.h"
 #include "support/impact_scene.h"
+#include "support/parts.h"
 #include "support/physics_worlds.h"
 
 namespace careen {
 namespace {
 
 using test::Random;
+using test::turnedIn;
 
 constexpr double kPullDown = 9.81;
 
@@ -101,17 +103,6 @@ TEST(ExactWorldParts, thrownOntoAFloorEightBoxesAreTheOne) {
         worst, apart(whole, recordedBy(whole, {.duration = 0.7}), recordedBy(eight, {.duration = 0.7}), 0.7));
   }
   EXPECT_LT(worst, 2e-14);  // measured 7e-15
-}
-
-// The same body, its box turned in its frame.
-Body turnedIn(Body body, const Mat3& bodyFromPart) {
-  const Mat3 tensor = bodyFromPart * body.mass.inertiaTensor() * bodyFromPart.transpose();
-  const Vec3 spin = angularVelocity(body.mass, body.initial);
-  body.mass = massWithTensor(body.mass.mass, 0.5 * (tensor + tensor.transpose()));
-  body.initial.pose.worldFromBody = body.initial.pose.worldFromBody * bodyFromPart.transpose();
-  body.initial.angularMomentum = angularMomentum(body.mass, body.initial.pose.worldFromBody, spin);
-  setParts(body, {{.halfExtents = body.halfExtents, .turned = true, .bodyFromPart = bodyFromPart}});
-  return body;
 }
 
 // Boxes that bounce off each other and a floor, and one that slides to rest on it: in whatever frame they are

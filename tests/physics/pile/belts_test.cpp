@@ -24,7 +24,7 @@ TEST(Belts, moveAsTheSurfaceAtEveryPointOfAFace) {
   CrowdStages stages(world);
   stages.meet(kCrowdStep);
   const PileManifold& manifold = stages.manifold();
-  ASSERT_TRUE(isOnBelt(manifold));
+  ASSERT_TRUE(isOnBelt(stages.members, manifold));
   ASSERT_EQ(manifold.count, 4);
   const ContactFrame& frame = manifold.frameOf(0);
   const Moving motion = motionOfBelt(stages.members, manifold, frame, manifold.points[0]);
@@ -63,7 +63,7 @@ TEST(Belts, ofStillFloorsThereAreNone) {
   const World world = onBeltOf({});
   CrowdStages stages(world);
   stages.meet(kCrowdStep);
-  EXPECT_FALSE(isOnBelt(stages.manifold()));
+  EXPECT_FALSE(isOnBelt(stages.members, stages.manifold()));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(PileBody, isTheBodyInItsState) {
   const PileBody pile = pileBody(body, body.initial);
   EXPECT_EQ(pile.radius, 3);  // √(1 + 4 + 4)
   EXPECT_EQ(pile.length, 2);  // the smallest size
-  EXPECT_FALSE(pile.held);
+  EXPECT_FALSE(pile.held());
   EXPECT_FALSE(pile.still());
   EXPECT_LT((pile.omega - Vec3(0.5, -1, 2)).norm(), 1e-15);
   const BodyState state = stateOf(pile);
@@ -44,7 +44,7 @@ TEST(PileBody, thatIsHeldStands) {
   Body body = bodyOf({.velocity = {1, 2, 3}, .angularVelocity = {1, 1, 1}});
   body.mass = immovable();
   const PileBody pile = pileBody(body, body.initial);
-  EXPECT_TRUE(pile.held);
+  EXPECT_TRUE(pile.held());
   EXPECT_TRUE(pile.still());
   EXPECT_EQ(pile.velocity, Vec3::Zero());
   EXPECT_EQ(pile.angularMomentum, Vec3::Zero());

@@ -134,7 +134,7 @@ TEST(PileProjection, holdsThoseThatHaveNoPlace) {
     body.mass = solidBox(body.halfExtents, i % 2 == 0 ? 1 : 2);
     body.initial.pose.position = Vec3(x, 0, 0);
     before.push_back(pileBody(body, body.initial));
-    before.back().held = i == 0 || i == kDepths.size();
+    before.back().drivenBy = i == 0 || i == kDepths.size() ? &kStillPart : nullptr;
     x += i < kDepths.size() ? 1 - kDepths.at(i) : 0;
   }
   std::vector<PileBody> bodies = before;
