@@ -13,7 +13,7 @@
 namespace careen {
 namespace {
 
-constexpr double kPull = 9.81;
+constexpr double kPullOfCourses = 9.81;
 constexpr double kPi = 3.14159265358979324;
 
 Body mover(const std::string& name, const Vec3& halfExtents, const Vec3& position,
@@ -35,11 +35,11 @@ Body cube(const std::string& name, const Vec3& position, double friction, double
 
 World heavy() {
   World world;
-  world.gravity = Vec3(0, 0, -kPull);
+  world.gravity = Vec3(0, 0, -kPullOfCourses);
   return world;
 }
 
-Recorded runInCrowd(const World& world, double duration) {
+Recorded runAsCrowd(const World& world, double duration) {
   Recorded run;
   run.motions.resize(world.bodies.size());
   Notes notes(run);
@@ -102,7 +102,7 @@ TEST(ExactWorldCourse, aFastLiftThrows) {
                         {.path = {}, .amplitude = Vec3(0, 0, amplitude), .rate = rate, .phase = -kPi / 2}),
                   cube("load", Vec3(0, 0, 0.2 - amplitude), 0)};
   const Recorded run = runFor(world, 0.4);
-  const double leaves = (std::asin(kPull / (amplitude * rate * rate)) + kPi / 2) / rate;
+  const double leaves = (std::asin(kPullOfCourses / (amplitude * rate * rate)) + kPi / 2) / rate;
   double flies = 0;
   for (const auto& [start, motion] : run.motions[1]) {
     flies = flies == 0 && start > 0.1 && std::holds_alternative<Flight>(motion) ? start : flies;
@@ -111,7 +111,7 @@ TEST(ExactWorldCourse, aFastLiftThrows) {
   const double up = amplitude * rate * std::cos(rate * leaves - kPi / 2);
   const double since = 0.3 - leaves;
   EXPECT_NEAR(run.at(world, 1, 0.3).pose.position.z(),
-              0.2 + kPull / (rate * rate) + since * (up - 0.5 * kPull * since), 1e-14);
+              0.2 + kPullOfCourses / (rate * rate) + since * (up - 0.5 * kPullOfCourses * since), 1e-14);
 }
 
 // Newmark's block: a table that shakes to and fro with up to 11.8 m/s², more than the 2.9 of friction; slip
@@ -132,7 +132,7 @@ TEST(ExactWorldCourse, aBlockOnAShakingTableSlips) {
   for (int k = 0; k < 2'000'000; ++k) {
     const double middle = (k + 0.5) * kStep;
     const double slip = v - amplitude * rate * std::cos(rate * middle);
-    const double most = mu * kPull;
+    const double most = mu * kPullOfCourses;
     const double follows = -amplitude * rate * rate * std::sin(rate * middle);
     const bool sticks = std::fabs(slip) < 2 * most * kStep && std::fabs(follows) <= most;
     const double a = sticks ? follows : slip > 0 ? -most : most;
@@ -163,8 +163,8 @@ TEST(ExactWorldCourse, aLiftThatStopsThrows) {
                   cube("load", Vec3(0, 0, 0.2), 0.5)};
   const Recorded run = runFor(world, 3);
   EXPECT_NEAR(run.at(world, 1, 1).pose.position.z(), 0.7, 1e-14);
-  EXPECT_NEAR(run.at(world, 1, 1.6).pose.position.z(), 1.2 + 0.1 - 0.5 * kPull * 0.01, 1e-14);
-  EXPECT_NEAR(run.impacts.back().time, 1.5 + 2 / kPull, 1e-14);
+  EXPECT_NEAR(run.at(world, 1, 1.6).pose.position.z(), 1.2 + 0.1 - 0.5 * kPullOfCourses * 0.01, 1e-14);
+  EXPECT_NEAR(run.impacts.back().time, 1.5 + 2 / kPullOfCourses, 1e-14);
   EXPECT_NEAR(run.last(world, 1, 3).pose.position.z(), 1.2, 1e-14);
   EXPECT_TRUE(std::holds_alternative<Rest>(run.motions[1].back().second));
 }
@@ -222,7 +222,7 @@ TEST(ExactWorldCourse, crowdsAreDrivenToo) {
   for (int k = 0; k < 9; ++k) {
     world.bodies.push_back(cube("load" + std::to_string(k), Vec3(0.3 * (k % 3), 0.3 * (k / 3), 0.2), 0.5));
   }
-  const Recorded run = runInCrowd(world, 3);
+  const Recorded run = runAsCrowd(world, 3);
   for (std::size_t k = 1; k < world.bodies.size(); ++k) {
     EXPECT_NEAR(run.last(world, k, 3).pose.position.z(), 0.2 + 0.3 * std::sin(3 * kPi), 1e-6);
     EXPECT_NEAR(run.at(world, k, 1.25).pose.position.z(), 0.2 + 0.3 * std::sin(1.25 * kPi), 2e-5);
@@ -237,7 +237,7 @@ TEST(ExactWorldCourse, crowdsSleepWhereNothingMoves) {
   for (int k = 0; k < 4; ++k) {
     world.bodies.push_back(cube("load" + std::to_string(k), Vec3(0.3 * k, 0, 0.2), 0.5));
   }
-  const Recorded run = runInCrowd(world, 3);
+  const Recorded run = runAsCrowd(world, 3);
   EXPECT_NEAR(run.at(world, 1, 0.9).pose.position.z(), 0.65, 2e-10);
   EXPECT_TRUE(std::holds_alternative<Rest>(run.motions[1].back().second));
   EXPECT_NEAR(run.last(world, 1, 3).pose.position.z(), 0.7, 2e-8);
@@ -255,7 +255,7 @@ TEST(ExactWorldCourse, aPusherInACrowdWakesWhatItMeetsNext) {
   world.bodies[0].course =
       courseOf({.path = {{1, Vec3::Zero()}, {3, Vec3(1, 0, 0)}}}, {.position = Vec3(-0.5, 0, 0.1)});
   world.bodies[0].initial = stateOf(world.bodies[0].course.front().at(0));
-  const Recorded run = runInCrowd(world, 4);
+  const Recorded run = runAsCrowd(world, 4);
   for (const std::size_t body : {1U, 2U}) {
     EXPECT_NEAR(run.at(world, body, 2.9).pose.position.x(), 0.45 + 0.2, 2e-9);
     EXPECT_TRUE(std::holds_alternative<Rest>(run.motions[body].back().second));
