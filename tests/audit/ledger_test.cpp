@@ -87,6 +87,26 @@ TEST(Ledger, countsTheWorkOfBelts) {
   EXPECT_GT(balanced(run).largest(AuditKind::kEnergyRise).size, 0.9);
 }
 
+// A racket of 2 m/s gives a ball that comes at 1 m/s 6 N s, and so 12 J of the 12.5 J that it has then. One
+// that were half as fast would have given 6.
+TEST(Ledger, countsTheWorkOfRackets) {
+  World world;
+  world.bodies = {
+      box("ball", Vec3::Constant(0.1), 1, Vec3(1, 0, 0), Vec3(-1, 0, 0)),
+      Body{.name = "racket",
+           .halfExtents = Vec3(0.1, 0.5, 0.5),
+           .mass = immovable(),
+           .material = {},
+           .initial = {},
+           .course = courseOf({.path = {}, .velocity = Vec3(2, 0, 0)}, {.position = Vec3(-1, 0, 0)})}};
+  world.bodies[1].initial = stateOf(world.bodies[1].course.front().at(0));
+  Trajectory run = record(world, {.duration = 2}, "");
+  EXPECT_NEAR(run.state(0, 2).velocity.x(), 5, 1e-14);
+  EXPECT_LT(balanced(run).largest(AuditKind::kEnergyRise).size, 1e-14);
+  run.world.bodies[1].course.front().motion.velocity *= 0.5;
+  EXPECT_NEAR(balanced(run).largest(AuditKind::kEnergyRise).size, 6 / 12.5, 1e-6);
+}
+
 // 0.1 % less gravity than the world has: after 1 s 0.01 kg m/s of |(1, 2, −7)| are missing.
 TEST(Ledger, missesWhatGravityShouldHaveGiven) {
   Trajectory run = falling();

@@ -10,7 +10,7 @@
 namespace careen {
 namespace {
 
-constexpr double kPull = 10;  // [m/s²]
+constexpr double kPullOfPushes = 10;  // [m/s²]
 
 // At rest: what contacts give is the weight's opposite.
 std::vector<PushedBody> atRest(const World& world) {
@@ -18,7 +18,7 @@ std::vector<PushedBody> atRest(const World& world) {
   for (const Body& body : world.bodies) {
     PushedBody& pushed = bodies.emplace_back();
     pushed.state = body.initial;
-    const double weight = body.mass.mass * kPull;
+    const double weight = body.mass.mass * kPullOfPushes;
     if (!isImmovable(body.mass)) {
       pushed.given = {.force = Vec3(0, 0, weight)};
       pushed.scale = weight;
@@ -124,13 +124,13 @@ TEST(ContactPushes, areOppositeToSlip) {
   std::vector<PushedBody> bodies = atRest(world);
   // Heights of its middle turn it over by friction's arm: corners press as x and y of friction's sum say. A
   // thin one would press alike, so that forces are μ m g/4 each; here they are found by the torque given.
-  Vec3 force = Vec3(0, 0, kPull);
+  Vec3 force = Vec3(0, 0, kPullOfPushes);
   Vec3 torque = Vec3::Zero();
   for (const double x : {-0.5, 0.5}) {
     for (const double y : {-0.5, 0.5}) {
       const Vec3 slip = Vec3(0.3 - 2 * y, 2 * x, 0).normalized();
-      force -= 0.5 * kPull / 4 * slip;
-      torque += Vec3(x, y, -0.1).cross(Vec3(-0.5 * kPull / 4 * slip));
+      force -= 0.5 * kPullOfPushes / 4 * slip;
+      torque += Vec3(x, y, -0.1).cross(Vec3(-0.5 * kPullOfPushes / 4 * slip));
     }
   }
   bodies[0].given = {.force = force, .torque = torque};

@@ -46,14 +46,14 @@ TEST(Plan, defaultSceneNeedsGravityAndWalls) {
   const Plan planned = plan(shipped("careen.json"));
   EXPECT_EQ(planned.modelled(), (Names{"gravity", "box-wall", "restitution", "resting"}));
   EXPECT_EQ(planned.leftOut(), (Names{"drag", "springs", "joints", "limits", "ropes", "motors", "box-box",
-                                      "friction", "belts"}));
+                                      "friction", "belts", "motions"}));
 }
 
 TEST(Plan, sampleOf1997NeedsSpringsAndDragToo) {
   const Plan planned = plan(shipped("hecker-1997.json"));
   EXPECT_EQ(planned.modelled(), (Names{"gravity", "drag", "springs", "box-wall", "restitution"}));
-  EXPECT_EQ(planned.leftOut(),
-            (Names{"joints", "limits", "ropes", "motors", "box-box", "friction", "belts", "resting"}));
+  EXPECT_EQ(planned.leftOut(), (Names{"joints", "limits", "ropes", "motors", "box-box", "friction", "belts",
+                                      "motions", "resting"}));
 }
 
 TEST(Plan, saysWhyEachThingIsModelled) {

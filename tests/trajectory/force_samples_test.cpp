@@ -17,11 +17,11 @@
 namespace careen {
 namespace {
 
-constexpr double kPull = 10;  // [m/s²]
+constexpr double kPullOfForces = 10;  // [m/s²]
 
 World onFloor(double friction) {
   World world;
-  world.gravity = Vec3(0, 0, -kPull);
+  world.gravity = Vec3(0, 0, -kPullOfForces);
   world.walls = {wall("floor", Vec3::UnitZ(), 0, 0)};
   world.walls[0].material.friction = friction;
   return world;
@@ -102,7 +102,7 @@ TEST(ForceSamples, leaveToSpringsDragAndGravityWhatIsTheirs) {
                     .to = {.body = {}, .point = Vec3(0, 0, 3)},
                     .stiffness = 50,
                     .restLength = 1.9}};
-  world.gravityChanges = {{.time = 0.5, .gravity = Vec3(0, 0, -2 * kPull)}};
+  world.gravityChanges = {{.time = 0.5, .gravity = Vec3(0, 0, -2 * kPullOfForces)}};
   const Trajectory run = record(world, {.duration = 1}, "");
   const ForceSamples samples(run);
   EXPECT_LT((sumOf(samples.at(0.2)).force - Vec3(0, 0, 15)).norm(), 1e-9);
@@ -235,9 +235,9 @@ TEST(ForceSamples, ofACrowdAreMeansWithItsImpacts) {
       struck += impact.impulse * impact.normal;
     }
   }
-  EXPECT_LT((onFloorAtEnd - Vec3(0, 0, mass * kPull)).norm(), 1e-6 * mass * kPull);
+  EXPECT_LT((onFloorAtEnd - Vec3(0, 0, mass * kPullOfForces)).norm(), 1e-6 * mass * kPullOfForces);
   // Measured: 2e-4.
-  EXPECT_NEAR(given.z() + struck.z(), 3 * mass * kPull, 1e-3 * 3 * mass * kPull);
+  EXPECT_NEAR(given.z() + struck.z(), 3 * mass * kPullOfForces, 1e-3 * 3 * mass * kPullOfForces);
 }
 
 TEST(ForceSamples, haveNamesOfWhatPushes) {

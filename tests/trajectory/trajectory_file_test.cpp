@@ -209,18 +209,23 @@ TEST(TrajectoryFile, bringsBackARunOfManyPieces) {
   EXPECT_EQ(encodeTrajectory(back), bytes);
 }
 
-// Format version 12: without parts, a list for each body, before the length and the hash of the last state.
-std::size_t sinceVersion12(const Trajectory& run) { return 8 * run.world.bodies.size(); }
+// Before the length and the hash of the last state, format version 12: without two lists for each body, its
+// boxes and the parts of its course; version 13: without the latter.
+std::size_t sinceVersion13(const Trajectory& run) { return 8 * run.world.bodies.size(); }
+std::size_t sinceVersion12(const Trajectory& run) { return 16 * run.world.bodies.size(); }
 
-TEST(TrajectoryFile, readsWhatVersion12Wrote) {
+TEST(TrajectoryFile, readsWhatVersions12And13Wrote) {
   const Trajectory run = driftAndReturn();
-  std::string record = recordOf(encodeTrajectory(run));
-  const std::size_t more = sinceVersion12(run);
-  const std::size_t end = record.size() - 8 - run.stateHash().size();
-  EXPECT_EQ(record.substr(end - more, more), std::string(more, '\0'));
-  record.erase(end - more, more);
-  const std::string bytes = withRightChecksum("careen\r\n" + inBytes(12) + pieceOf(record) + "checksum");
-  EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
+  for (const auto& [version, more] :
+       {std::pair(12, sinceVersion12(run)), std::pair(13, sinceVersion13(run))}) {
+    std::string record = recordOf(encodeTrajectory(run));
+    const std::size_t end = record.size() - 8 - run.stateHash().size();
+    EXPECT_EQ(record.substr(end - more, more), std::string(more, '\0'));
+    record.erase(end - more, more);
+    const std::string bytes = withRightChecksum("careen\r\n" + inBytes(static_cast<std::uint64_t>(version)) +
+                                                pieceOf(record) + "checksum");
+    EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
+  }
 }
 
 TEST(TrajectoryFile, keepsTheBoxesOfABody) {
@@ -236,6 +241,31 @@ TEST(TrajectoryFile, keepsTheBoxesOfABody) {
   EXPECT_EQ(back.world.bodies[0].parts, body.parts);
   EXPECT_EQ(back.world.bodies[0].partCorners, body.partCorners);
   EXPECT_EQ(back.world.bodies[0].halfExtents, body.halfExtents);
+}
+
+TEST(TrajectoryFile, keepsHowFixedBoxesMove) {
+  Trajectory run = driftAndReturn();
+  Body door;
+  door.name = "door";
+  door.halfExtents = Vec3::Ones();
+  door.course = courseOf({.path = {{0, Vec3::Zero()}, {0.5, Vec3::UnitX()}},
+                          .angularVelocity = Vec3(0, 0, 2),
+                          .about = Vec3(50, 1, 0),
+                          .amplitude = Vec3(0, 0.5, 0),
+                          .rate = 3,
+                          .phase = 1},
+                         {.position = Vec3(50, 0, 0)});
+  door.initial = stateOf(door.course.front().at(0));
+  run.world.bodies.push_back(door);
+  run.stage.colors.emplace_back();
+  run.tracks.emplace_back();
+  run.tracks.back().segments = {{.start = 0, .motion = door.course[0].motion},
+                                {.start = 0.5, .motion = door.course[1].motion}};
+  const std::string bytes = encodeTrajectory(run);
+  const Trajectory back = decodeTrajectory(bytes, "run.careen");
+  EXPECT_EQ(back.world.bodies.back().course, door.course);
+  EXPECT_EQ(back.stateHash(), run.stateHash());
+  EXPECT_EQ(encodeTrajectory(back), bytes);
 }
 
 // Format version 11: without changes of gravity too, a list, and six numbers for each body and wall, how
@@ -349,8 +379,8 @@ TEST(TrajectoryFile, aMinuteOfABouncingBoxTakesLessThan50kB) {
 
 TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
-  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 13: a newer careen wrote it"),
-                                        std::pair('\3', "3, expected 4 to 13: simulate its scene again")}) {
+  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 14: a newer careen wrote it"),
+                                        std::pair('\3', "3, expected 4 to 14: simulate its scene again")}) {
     bytes[8] = version;
     EXPECT_EQ(messageOf(withRightChecksum(bytes)),
               "run.careen: this trajectory file has format version " + std::string(remedy));

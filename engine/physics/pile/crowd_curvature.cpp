@@ -59,8 +59,8 @@ double Curvature::secondOrder(const PileManifold& manifold, int k) const {
   const Vec3 slip = solver_.velocity(manifold.a) + spinA.cross(arm) - solver_.velocity(b) - spinB.cross(armB);
   Vec3 turning = (manifold.planeOfB ? spinB : spinA).cross(n);
   if (&frame == &manifold.edges) {
-    const Vec3 edgeA = bodyA.axes.col(manifold.edgeA);
-    const Vec3 edgeB = bodyB.axes.col(manifold.edgeB);
+    const Vec3 edgeA = boxOf(bodyA, manifold.boxA).axes.col(manifold.edgeMiddles.axisA);
+    const Vec3 edgeB = boxOf(bodyB, manifold.boxB).axes.col(manifold.edgeMiddles.axisB);
     const double cosine = dot(edgeA, edgeB);
     const double ofEdgeA = -dot(n, spinA.cross(edgeA));
     const double ofEdgeB = -dot(n, spinB.cross(edgeB));

@@ -156,8 +156,8 @@ void addEdges(const PileBox& a, const PileBox& b, const PileAxes& axes, PileMani
   if (std::fabs(s) > a.halfExtents[i] + slack || std::fabs(t) > b.halfExtents[j] + slack) {
     return;
   }
-  manifold.edgeA = i;
-  manifold.edgeB = j;
+  manifold.edgeMiddles.axisA = i;
+  manifold.edgeMiddles.axisB = j;
   manifold.hasEdges = true;
   addPoint(manifold, Vec3::Zero(), kEdgeFeature);
 }
@@ -220,8 +220,8 @@ void refreshOfBoxes(const PileBox& a, const PileBox& b, PileManifold& manifold) 
   }
   if (manifold.hasEdges) {
     PilePoint& point = manifold.points[at(manifold.count - 1)];
-    const Vec3 alongA = a.axes.col(manifold.edgeA);
-    const Vec3 alongB = b.axes.col(manifold.edgeB);
+    const Vec3 alongA = a.axes.col(manifold.edgeMiddles.axisA);
+    const Vec3 alongB = b.axes.col(manifold.edgeMiddles.axisB);
     const double cosine = dot(alongA, alongB);
     const Vec3 cross = manifold.edgeMiddles.sign * alongA.cross(alongB);
     const double sine = cross.norm();
@@ -235,7 +235,7 @@ void refreshOfBoxes(const PileBox& a, const PileBox& b, PileManifold& manifold) 
     point.gap = dot(manifold.edges.normal, between);
     const double square = std::max(1 - cosine * cosine, kSlack * kSlack);
     const double along = (cosine * dot(alongB, between) - dot(alongA, between)) / square;
-    const double half = a.halfExtents[manifold.edgeA];
+    const double half = a.halfExtents[manifold.edgeMiddles.axisA];
     point.world = (toMiddle + armA) + std::clamp(along, -half, half) * alongA;
     // The boxes are no deeper in each other than along any axis.
     for (int k = 0; k < planePoints; ++k) {

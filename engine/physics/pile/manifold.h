@@ -41,8 +41,10 @@ struct PlaneInOwner {
   double offset = 0;             ///< [m]
 };
 
-/// Where the edges of a pair lie in their boxes.
+/// The edges of a pair, and where they lie in their boxes.
 struct EdgeMiddles {
+  int axisA = 0;
+  int axisB = 0;
   Vec3 a = Vec3::Zero();  ///< [m] from the box's middle, a's frame
   Vec3 b = Vec3::Zero();  ///< [m] b's frame
   double sign = 1;        ///< for which a's edge × b's edge points from b to a
@@ -68,8 +70,6 @@ struct PileManifold {
   PlaneInOwner planeInOwner;
 
   bool hasEdges = false;  ///< the last point is the edge pair
-  int edgeA = 0;
-  int edgeB = 0;
   EdgeMiddles edgeMiddles;
 
   ContactFrame plane;  ///< normal from b to a, tangents fixed in the body that owns the reference plane

@@ -12,14 +12,16 @@
 #include "physics/world/given_inertia.h"
 #include "support/exact_runs.h"
 #include "support/impact_scene.h"
+#include "support/parts.h"
 #include "support/physics_worlds.h"
 
 namespace careen {
 namespace {
 
 using test::Random;
+using test::turnedIn;
 
-constexpr double kPullDown = 9.81;
+constexpr double kFallOfParts = 9.81;
 
 Recorded recordedBy(const World& world, const RunSettings& settings) {
   Recorded run;
@@ -41,7 +43,7 @@ Body inEight(Body body) {
 
 World onRoughFloor(std::vector<Body> bodies, double restitution, double friction) {
   World world;
-  world.gravity = Vec3(0, 0, -kPullDown);
+  world.gravity = Vec3(0, 0, -kFallOfParts);
   world.walls = {floorAt(0)};
   world.walls[0].material = {.restitution = restitution, .friction = friction};
   world.bodies = std::move(bodies);
@@ -51,7 +53,7 @@ World onRoughFloor(std::vector<Body> bodies, double restitution, double friction
   return world;
 }
 
-double apart(const World& world, const Recorded& a, const Recorded& b, double time) {
+double apartAt(const World& world, const Recorded& a, const Recorded& b, double time) {
   double most = 0;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const Pose one = a.at(world, i, time).pose;
@@ -67,7 +69,7 @@ TEST(ExactWorldParts, inFlightEightBoxesAreTheOneToTheBit) {
   Random random(1);
   for (int k = 0; k < 20; ++k) {
     World whole;
-    whole.gravity = Vec3(0, 0, -kPullDown);
+    whole.gravity = Vec3(0, 0, -kFallOfParts);
     whole.bodies = {makeBox({.halfExtents = Vec3(0.1, 0.2, 0.3) + 0.1 * random.inCube(1).cwiseAbs(),
                              .worldFromBody = random.rotation(),
                              .velocity = random.inCube(1),
@@ -97,21 +99,10 @@ TEST(ExactWorldParts, thrownOntoAFloorEightBoxesAreTheOne) {
                                      0.6, 0.4);
     World eight = whole;
     eight.bodies[0] = inEight(whole.bodies[0]);
-    worst = std::max(
-        worst, apart(whole, recordedBy(whole, {.duration = 0.7}), recordedBy(eight, {.duration = 0.7}), 0.7));
+    worst = std::max(worst, apartAt(whole, recordedBy(whole, {.duration = 0.7}),
+                                    recordedBy(eight, {.duration = 0.7}), 0.7));
   }
   EXPECT_LT(worst, 2e-14);  // measured 7e-15
-}
-
-// The same body, its box turned in its frame.
-Body turnedIn(Body body, const Mat3& bodyFromPart) {
-  const Mat3 tensor = bodyFromPart * body.mass.inertiaTensor() * bodyFromPart.transpose();
-  const Vec3 spin = angularVelocity(body.mass, body.initial);
-  body.mass = massWithTensor(body.mass.mass, 0.5 * (tensor + tensor.transpose()));
-  body.initial.pose.worldFromBody = body.initial.pose.worldFromBody * bodyFromPart.transpose();
-  body.initial.angularMomentum = angularMomentum(body.mass, body.initial.pose.worldFromBody, spin);
-  setParts(body, {{.halfExtents = body.halfExtents, .turned = true, .bodyFromPart = bodyFromPart}});
-  return body;
 }
 
 // Boxes that bounce off each other and a floor, and one that slides to rest on it: in whatever frame they are
@@ -192,7 +183,7 @@ TEST(ExactWorldParts, slideAndStandAsOneBox) {
     body = inEight(body);
   }
   const Recorded run = recordedBy(world, {.duration = 2});
-  EXPECT_NEAR(run.last(world, 0, 2).pose.position.x(), 4 / (2 * 0.3 * kPullDown), 1e-9);
+  EXPECT_NEAR(run.last(world, 0, 2).pose.position.x(), 4 / (2 * 0.3 * kFallOfParts), 1e-9);
   EXPECT_NEAR(run.last(world, 0, 2).pose.position.z(), 0.1, 1e-12);
   EXPECT_LT((run.last(world, 2, 2).pose.position - Vec3(0, 3, 0.3)).norm(), 1e-12);
 }

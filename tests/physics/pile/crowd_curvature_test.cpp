@@ -11,6 +11,7 @@
 #include "physics/pile/crowd.h"
 #include "support/crates.h"
 #include "support/crowd_stages.h"
+#include "support/parts.h"
 #include "support/pile_scenes.h"
 
 namespace careen {
@@ -127,6 +128,47 @@ TEST(CrowdCurvature, spinningBoxesThatMeetTouchAtTheEndsOfSteps) {
   ASSERT_GT(parts.size(), 100U);
   EXPECT_LT(parts[parts.size() / 2], 0.05);      // measured 0.020; to first order only 0.19
   EXPECT_LT(parts[parts.size() * 9 / 10], 0.3);  // 0.19, where other features meet; 0.40
+}
+
+// Bars that spin across each other: what their edges' gap leaves its tangent by does not depend on the frame
+// in which a bar is given.
+TEST(CrowdCurvature, isThatOfBoxesInWhateverFrameTheyAreGiven) {
+  const double h = 1.0 / 180;
+  test::Pourer dice(11);
+  int edges = 0;
+  double most = 0;
+  double worst = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    World plain;
+    World turned;
+    for (const double side : {-1.0, 1.0}) {
+      const Quat attitude = Quat(Quat::Identity().coeffs() + 0.2 * dice.attitude().coeffs()).normalized();
+      const Vec3 half = side < 0 ? Vec3(0.5, 0.1, 0.1) : Vec3(0.1, 0.5, 0.1);
+      plain.bodies.push_back(
+          spinningBox(half, Vec3(0, 0, 0.125 * side), attitude, Vec3::Zero(), 6 * dice.vector(-1, 1)));
+      turned.bodies.push_back(test::turnedIn(plain.bodies.back(), dice.attitude().toRotationMatrix()));
+    }
+    test::CrowdStages one(plain);
+    test::CrowdStages other(turned);
+    for (test::CrowdStages* stages : {&one, &other}) {
+      stages->meet(h);
+      stages->impulses.find();
+    }
+    if (one.contacts.near().empty() || !one.manifold().hasEdges || !other.manifold().hasEdges) {
+      continue;
+    }
+    const int k = one.manifold().count - 1;
+    ASSERT_EQ(other.manifold().count - 1, k);
+    if (one.manifold().points[at(k)].row >= 0) {
+      const double curved = one.manifold().points[at(k)].curved;
+      most = std::max(most, std::fabs(curved));
+      worst = std::max(worst, std::fabs(curved - other.manifold().points[at(k)].curved));
+      ++edges;
+    }
+  }
+  EXPECT_GT(edges, 0 * 30);
+  EXPECT_GT(most, 0 * 1e-4);
+  EXPECT_LT(worst, 0 * 1e-9);
 }
 
 }  // namespace

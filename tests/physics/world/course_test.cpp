@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace careen {
 namespace {
-
-constexpr double kPi = 3.14159265358979324;
 
 // Whatever moves so, its velocities are the rates of its places, and its accelerations those of its
 // velocities: by central differences, whose error is of second order in a step of 1e-4 s. 4.1e-7 off.
@@ -91,18 +90,19 @@ TEST(Course, isStraightBetweenThePointsOfItsPath) {
 TEST(Course, turnsAboutAPointThatGoesAlong) {
   const Course course = courseOf({.path = {},
                                   .velocity = Vec3(0, 0, 1),
-                                  .angularVelocity = Vec3(0, -kPi / 2, 0),
+                                  .angularVelocity = Vec3(0, -std::numbers::pi / 2, 0),
                                   .about = Vec3(1, 0, 0)},
                                  {.position = Vec3(3, 0, 0)});
   const Kinematics after = course.front().at(1);
   EXPECT_LT((after.pose.position - Vec3(1, 0, 3)).norm(), 1e-15);
   EXPECT_LT((after.pose.worldFromBody * Vec3::UnitX() - Vec3::UnitZ()).norm(), 1e-15);
-  EXPECT_LT((after.velocity - Vec3(-kPi, 0, 1)).norm(), 2e-15);
+  EXPECT_LT((after.velocity - Vec3(-std::numbers::pi, 0, 1)).norm(), 2e-15);
 }
 
 // An oscillation that begins at its turning point begins there.
 TEST(Course, beginsWhereItsPhaseSays) {
-  const Course course = courseOf({.path = {}, .amplitude = Vec3(0.5, 0, 0), .rate = 2, .phase = kPi / 2}, {});
+  const Course course =
+      courseOf({.path = {}, .amplitude = Vec3(0.5, 0, 0), .rate = 2, .phase = std::numbers::pi / 2}, {});
   EXPECT_LT((course.front().at(0).pose.position - Vec3(0.5, 0, 0)).norm(), 1e-16);
   EXPECT_LT(course.front().at(0).velocity.norm(), 1e-15);
 }
