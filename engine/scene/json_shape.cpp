@@ -87,7 +87,8 @@ double JsonValue::number(const NumberRange& range) const {
 
 int JsonValue::integer(int min, int max, const char* unit) const {
   const double value = node_->number;
-  if (!is(Kind::kNumber) || value < min || value > max || value != std::floor(value)) {
+  const bool isNoCount = min >= 0 && std::signbit(value);  // −0 is none to a schema
+  if (!is(Kind::kNumber) || isNoCount || value < min || value > max || value != std::floor(value)) {
     fail(withUnit("a whole number from " + std::to_string(min) + " to " + std::to_string(max), unit));
   }
   return static_cast<int>(value);

@@ -15,9 +15,6 @@ std::vector<PathPoint> readPath(const JsonValue& value) {
     const std::vector<JsonValue> numbers = point.elements("[time, x, y, z]", 4);
     PathPoint& added = path.emplace_back();
     added.time = numbers[0].number(nonNegativeNumber("s"));
-    if (path.size() > 1 && !(added.time > path[path.size() - 2].time)) {
-      numbers[0].fail("a time after that of the point before");
-    }
     for (int axis = 0; axis < 3; ++axis) {
       added.place[axis] = numbers[static_cast<std::size_t>(axis) + 1].number(anyNumber("m"));
     }

@@ -168,6 +168,18 @@ void checkFixed(const JsonTree& tree, const Scene& scene) {
   }
 }
 
+// Its moments ascend.
+void checkPath(const JsonTree& tree, const JsonNode& motion, const std::string& where) {
+  const JsonNode* const path = motion.find("path");
+  for (std::size_t k = 1; path != nullptr && k < path->children.size(); ++k) {
+    const JsonNode& time = path->children[k].children[0];
+    if (!(time.number > path->children[k - 1].children[0].number)) {
+      tree.fail(time.offset, describe(time) + " for " + where + "[" + std::to_string(k) + "][0]",
+                "a time after that of the point before");
+    }
+  }
+}
+
 // By itself moves only what nothing else does, and what a run can follow.
 void checkMotions(const JsonTree& tree, const Scene& scene) {
   constexpr double kMostTurns = 1e12;  // [rad] of phases in a run: beyond, doubles do not tell them
@@ -182,6 +194,7 @@ void checkMotions(const JsonTree& tree, const Scene& scene) {
       tree.fail(motion->offset, "motion for box " + name + ", which is not fixed",
                 "it for fixed boxes only: others move as forces make them");
     }
+    checkPath(tree, *motion, "boxes[" + std::to_string(i) + "].motion.path");
     for (const char* const key : {"surface_velocity", "surface_spin"}) {
       if (const JsonNode* const surface = node.find(key)) {
         tree.fail(surface->offset, std::string(key) + " for box " + name + ", which has a motion",

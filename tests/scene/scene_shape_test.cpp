@@ -409,7 +409,7 @@ const std::vector<BadPiece> kBadValues = {
     {"0.001", "@-0.001", "found -0.001 for dt, expected a number above 0 [s]"},
     {"1e-9", "@0", "found 0 for tolerance, expected a number above 0"},
     {R"(["time", "energy"])", R"(["time", @"enrgy"])",
-     R"(found the unknown overlay "enrgy", expected one of contacts, impulses, angular-momentum, spin-axis, trail, velocity, names, time, energy, joints, efforts)"},
+     R"(found the unknown overlay "enrgy", expected one of contacts, impulses, angular-momentum, spin-axis, trail, velocity, names, time, energy, joints, efforts, forces)"},
     {R"(["time", "energy"])", R"(["time", @"time"])",
      R"(found "time" for overlays[1], expected each overlay once)"},
     {R"(["time", "energy"])", R"(@"time")",
