@@ -82,10 +82,20 @@ Face around(std::vector<Vec3> points, const Plane& plane) {
   }
   const Vec3 u = plane.normal.unitOrthogonal();
   const Vec3 v = plane.normal.cross(u);
-  const auto angle = [&](const Vec3& point) {
-    return std::atan2(dot(v, Vec3(point - middle)), dot(u, Vec3(point - middle)));
+  struct Around {
+    double along = 0;
+    double across = 0;
+    bool isSecondHalf() const { return across > 0 || (across == 0 && along > 0); }
   };
-  std::sort(points.begin(), points.end(), [&](const Vec3& x, const Vec3& y) { return angle(x) < angle(y); });
+  const auto from = [&](const Vec3& point) {
+    return Around{.along = dot(u, Vec3(point - middle)), .across = dot(v, Vec3(point - middle))};
+  };
+  std::sort(points.begin(), points.end(), [&](const Vec3& x, const Vec3& y) {
+    const Around a = from(x);
+    const Around b = from(y);
+    return a.isSecondHalf() != b.isSecondHalf() ? b.isSecondHalf()
+                                                : a.along * b.across - a.across * b.along > 0;
+  });
   return points;
 }
 

@@ -150,15 +150,16 @@ Balance balanceOf(const Trajectory& run) {
     std::vector<Vec3> angular(states.size(), Vec3::Zero());
     for (const auto& [place, weight] : kNodes) {
       const double time = from + place * length;
+      const double seconds = weight * length;
       const std::vector<BodyState> now = run.states(time);
       for (std::size_t body = 0; body < states.size(); ++body) {
-        linear[body] += weight * length * run.world.bodies[body].mass.mass * run.world.gravity;
+        linear[body] += seconds * run.world.bodies[body].mass.mass * run.world.gravity;
       }
       for (const ContactPush& push : samples.at(time)) {
         const auto give = [&](int body, double sign) {
           const auto b = static_cast<std::size_t>(body);
-          linear[b] += sign * weight * length * push.force;
-          angular[b] += sign * weight * length * (push.point - now[b].pose.position).cross(push.force);
+          linear[b] += sign * seconds * push.force;
+          angular[b] += sign * seconds * (push.point - now[b].pose.position).cross(push.force);
         };
         give(push.a.value, 1);
         if (push.b && !push.b->isWall()) {

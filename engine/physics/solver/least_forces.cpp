@@ -39,7 +39,7 @@ NearestForce onRay(const Force& ray, const Force& given) {
 }
 
 NearestForce inCone(double friction, const Force& given) {
-  const double size = std::hypot(given[1], given[2]);
+  const double size = std::sqrt(given[1] * given[1] + given[2] * given[2]);
   if (size <= friction * given[0]) {
     return {.force = given, .change = Eigen::Matrix3d::Identity()};
   }

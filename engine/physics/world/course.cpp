@@ -85,7 +85,7 @@ Course courseOf(const PrescribedMotion& motion, const Pose& home) {
                      .phase = motion.phase};
   Course course;
   const auto add = [&](double from, const Vec3& place, const Vec3& along) {
-    CoursePart& part = course.emplace_back(from, whole.after(from));
+    CoursePart& part = course.emplace_back(CoursePart{.from = from, .motion = whole.after(from)});
     part.motion.pivot += place - origin;
     part.motion.velocity += along;
   };
