@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "core/math/linear_algebra.h"
 #include "stage/triangle_mesh.h"
 
@@ -19,7 +21,7 @@ struct SolidMoments {
 ///     ∫ dV = D/6,   ∫ x dV = D/24 (a+b+c),   ∫ x xᵀ dV = D/120 (a aᵀ + b bᵀ + c cᵀ + s sᵀ),   s = a+b+c.
 class SolidSums {
  public:
-  explicit SolidSums(const Vec3& from) : from_(from) {}
+  explicit SolidSums(Vec3 from) : from_(std::move(from)) {}
 
   void add(const Vec3& a, const Vec3& b, const Vec3& c);
   double volume() const { return volume_; }  ///< [m³] negative if it is inside out
