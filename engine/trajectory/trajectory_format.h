@@ -153,21 +153,12 @@ void visit(Archive& archive, Visited<Archive, MassProperties> mass) {
   visit(archive, mass.inverseInertiaBody);
 }
 
-template <class Archive>
-void visitColumns(Archive& archive, Visited<Archive, Mat3> matrix) {
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row) {
-      archive.visit(matrix(row, column));
-    }
-  }
-}
-
 /// What a body has since format version 7, stored after the rest.
 template <class Archive>
 void visitPlacement(Archive& archive, Visited<Archive, Body> body) {
   visit(archive, body.boxCenter);
   archive.visit(body.mass.turned);
-  visitColumns(archive, body.mass.bodyFromPrincipal);
+  visit(archive, body.mass.bodyFromPrincipal);
 }
 
 template <class Archive>
@@ -175,7 +166,7 @@ void visit(Archive& archive, Visited<Archive, BodyPart> part) {
   visit(archive, part.halfExtents);
   visit(archive, part.center);
   archive.visit(part.turned);
-  visitColumns(archive, part.bodyFromPart);
+  visit(archive, part.bodyFromPart);
 }
 
 /// What a body has since format version 13.

@@ -114,8 +114,7 @@ TEST(UnionMoments, turnWithTheBoxes) {
   EXPECT_LT(worst, 2e-14);  // measured 7e-15
 }
 
-// A square column and one turned by 45° about its axis share a regular octagon's: 8 (√2 − 1) of 4 squares of
-// half the side.
+// A square column and one turned by 45° about its axis share that of a regular octagon, of area 8 (√2 − 1).
 TEST(UnionMoments, countWhatBoxesThatAreTurnedShareOnce) {
   const Mat3 eighth = Quat(Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitZ())).toRotationMatrix();
   const std::vector<BodyPart> star = {{.halfExtents = Vec3(1, 1, 2)},
@@ -124,9 +123,9 @@ TEST(UnionMoments, countWhatBoxesThatAreTurnedShareOnce) {
   const double shared = 8 * (std::sqrt(2.0) - 1);
   EXPECT_NEAR(found.volume, 4 * (2 * 4 - shared), 1e-13);
   EXPECT_EQ(found.center, Vec3::Zero());
-  // About the axis: two squares of side 2, a⁴/6 each, less the octagon, (1 + (5 − 3√2) … ) by its triangles.
-  const double half = std::tan(std::numbers::pi / 8);                // half the octagon's side, at distance 1
-  const double octagon = 16 * (half / 4 + half * half * half / 12);  // ∫ (x² + y²) over 16 right triangles
+  // About the axis: two squares of side a = 2, a⁴/6 each, less the octagon, in 16 right triangles.
+  const double half = std::tan(std::numbers::pi / 8);  // half its side, at distance 1
+  const double octagon = 16 * (half / 4 + half * half * half / 12);
   EXPECT_NEAR(found.inertia(2, 2), 4 * (2 * 16.0 / 6 - octagon), 1e-13);
 }
 

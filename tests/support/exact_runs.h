@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/exact/exact_world.h"
+#include "physics/simulate.h"
 
 namespace careen {
 
@@ -52,12 +53,17 @@ class Notes : public Recorder {
   Recorded& run_;
 };
 
-inline Recorded runFor(const World& world, double duration) {
+inline Recorded runBy(const World& world, const RunSettings& settings) {
   Recorded run;
   run.motions.resize(world.bodies.size());
   Notes notes(run);
-  run.figures = ExactWorld(world, {.duration = duration}, notes).run({});
+  run.figures = simulate(world, settings, notes);
   return run;
+}
+inline Recorded runFor(const World& world, double duration) { return runBy(world, {.duration = duration}); }
+/// All that touch step as a crowd.
+inline Recorded runInCrowd(const World& world, double duration) {
+  return runBy(world, {.duration = duration, .crowds = {.when = CrowdSettings::When::kAbove}});
 }
 
 inline Body box(const std::string& name, const Vec3& halfExtents, double mass, const Vec3& position,

@@ -47,21 +47,10 @@ bool CrowdPath::cameNear(std::size_t place, const Body& body, const Pose& pose, 
   }
   const PileBody& start = members_.start[place];
   const double within = distance + members_[place].path - start.path + members_.tolerance;
-  if ((pose.position - start.position).norm() > radiusOf(body) + start.radius + within) {
-    return false;
-  }
-  for (int i = 0; i < body.partCount(); ++i) {
-    const BoxAt box = boxAt(pose, body, i);
-    for (int j = 0; j < start.partCount(); ++j) {
-      const PileBox own = boxOf(start, j);
-      if (BoxAxes(box.pose.worldFromBody, box.halfExtents, own.axes, own.halfExtents,
-                  box.middle() - own.middle())
-              .gap() <= within) {
-        return true;
-      }
-    }
-  }
-  return false;
+  const Body& own = members_.world.bodies[members_.listed[place]];
+  return (pose.position - start.position).norm() <= radiusOf(body) + start.radius + within &&
+         anyBoxes(body, pose, own, {start.position, start.axes},
+                  [&](const BoxAt& a, const BoxAt& b) { return BoxAxes(a, b).gap() <= within; });
 }
 
 Vec3 CrowdPath::meanSpin(std::size_t place) const {

@@ -34,16 +34,6 @@ World onFloorThatMoves(const SurfaceMotion& surface) {
 SurfaceMotion belt(const Vec3& velocity) { return {.velocity = velocity}; }
 SurfaceMotion turntable(double spin) { return {.spin = Vec3(0, 0, spin)}; }
 
-Recorded runInCrowd(const World& world, double duration) {
-  Recorded run;
-  run.motions.resize(world.bodies.size());
-  Notes notes(run);
-  run.figures =
-      ExactWorld(world, {.duration = duration, .crowds = {.when = CrowdSettings::When::kAbove}}, notes)
-          .run({});
-  return run;
-}
-
 // It slips for v/(μg) and v²/(2μg), and then rides. 7e-11 m off after 3 s.
 TEST(ExactWorldBelt, whatIsPutOnABeltSlipsAndThenRides) {
   const double speed = 1.5;

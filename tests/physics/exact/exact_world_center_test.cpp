@@ -21,14 +21,6 @@ using QuadMatrix = Matrix3<Quad>;
 
 constexpr double kPullDown = 9.81;
 
-Recorded runBy(const World& world, const RunSettings& settings) {
-  Recorded run;
-  run.motions.resize(world.bodies.size());
-  Notes notes(run);
-  run.figures = simulate(world, settings, notes);
-  return run;
-}
-
 // The box keeps its place: `center` is where its centre of mass lies in it.
 Body loaded(Body body, const Vec3& center) {
   body.initial.pose.position += body.initial.pose.worldFromBody * center;

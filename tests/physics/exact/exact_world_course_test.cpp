@@ -39,16 +39,6 @@ World heavy() {
   return world;
 }
 
-Recorded runAsCrowd(const World& world, double duration) {
-  Recorded run;
-  run.motions.resize(world.bodies.size());
-  Notes notes(run);
-  run.figures =
-      ExactWorld(world, {.duration = duration, .crowds = {.when = CrowdSettings::When::kAbove}}, notes)
-          .run({});
-  return run;
-}
-
 // A ball of −1 m/s meets a racket of 2 m/s after 1.8/3 s: it leaves at 2 + 3 e. To rounding.
 TEST(ExactWorldCourse, aRacketGivesItsSpeedTwice) {
   for (const double restitution : {1.0, 0.5}) {
@@ -222,7 +212,7 @@ TEST(ExactWorldCourse, crowdsAreDrivenToo) {
   for (int k = 0; k < 9; ++k) {
     world.bodies.push_back(cube("load" + std::to_string(k), Vec3(0.3 * (k % 3), 0.3 * (k / 3), 0.2), 0.5));
   }
-  const Recorded run = runAsCrowd(world, 3);
+  const Recorded run = runInCrowd(world, 3);
   for (std::size_t k = 1; k < world.bodies.size(); ++k) {
     EXPECT_NEAR(run.last(world, k, 3).pose.position.z(), 0.2 + 0.3 * std::sin(3 * kPi), 1e-6);
     EXPECT_NEAR(run.at(world, k, 1.25).pose.position.z(), 0.2 + 0.3 * std::sin(1.25 * kPi), 2e-5);
@@ -237,7 +227,7 @@ TEST(ExactWorldCourse, crowdsSleepWhereNothingMoves) {
   for (int k = 0; k < 4; ++k) {
     world.bodies.push_back(cube("load" + std::to_string(k), Vec3(0.3 * k, 0, 0.2), 0.5));
   }
-  const Recorded run = runAsCrowd(world, 3);
+  const Recorded run = runInCrowd(world, 3);
   EXPECT_NEAR(run.at(world, 1, 0.9).pose.position.z(), 0.65, 2e-10);
   EXPECT_TRUE(std::holds_alternative<Rest>(run.motions[1].back().second));
   EXPECT_NEAR(run.last(world, 1, 3).pose.position.z(), 0.7, 2e-8);
@@ -255,7 +245,7 @@ TEST(ExactWorldCourse, aPusherInACrowdWakesWhatItMeetsNext) {
   world.bodies[0].course =
       courseOf({.path = {{1, Vec3::Zero()}, {3, Vec3(1, 0, 0)}}}, {.position = Vec3(-0.5, 0, 0.1)});
   world.bodies[0].initial = stateOf(world.bodies[0].course.front().at(0));
-  const Recorded run = runAsCrowd(world, 4);
+  const Recorded run = runInCrowd(world, 4);
   for (const std::size_t body : {1U, 2U}) {
     EXPECT_NEAR(run.at(world, body, 2.9).pose.position.x(), 0.45 + 0.2, 2e-9);
     EXPECT_TRUE(std::holds_alternative<Rest>(run.motions[body].back().second));

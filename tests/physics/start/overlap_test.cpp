@@ -252,7 +252,7 @@ TEST(MoveApart, seesEachBoxOfABody) {
   EXPECT_EQ(parted.pairs, 1U);
   EXPECT_NEAR((parted.positions[1] - parted.positions[0]).x(), 0.5, 1e-12);
   EXPECT_NEAR(lowestGap(wall("floor", Vec3::UnitZ(), -1.2), bridge).gap, 0.2, 1e-15);
-  // Pushed down onto the cube by a ceiling it finds room beside it or below.
+  // A cube that has sunk into the deck finds room, too.
   const std::vector<PlacedBox> low{bridge, cube("under", Vec3(0, 0, 0.2))};
   EXPECT_FALSE(firstOverlap(movedTo(low, moveApart(low, {}))));
 }

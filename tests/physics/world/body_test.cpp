@@ -194,7 +194,7 @@ TEST(SetParts, turnsPartsAboutTheBody) {
   const Pose middle = partPose(body, 0, box);
   EXPECT_LT((middle.position - box.worldPoint(Vec3(0, 1, -1))).norm(), 2e-15);
   EXPECT_LT((middle.worldFromBody - kTurned * quarter).norm(), 1e-15);
-  EXPECT_EQ(bar.seenFrom(Vec3(0, 1, 0)).middle().norm() < 1e-15, true);
+  EXPECT_LT(bar.seenFrom(Vec3(0, 1, 0)).middle().norm(), 1e-15);
 }
 
 }  // namespace
