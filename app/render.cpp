@@ -19,6 +19,7 @@
 #include "core/system/processor.h"
 #include "film/folder.h"
 #include "film/frame_range.h"
+#include "film_sound.h"
 #include "interruption.h"
 #include "parsed.h"
 #include "picture_options.h"
@@ -52,6 +53,7 @@ struct FilmOptions {
   bool overwrite = false;
   PictureOptions picture;
   bool listBackends = false;
+  SoundChoice sound;
   std::optional<std::filesystem::path> reference;
   bool approve = false;
   CompareOptions compare;
@@ -325,6 +327,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
                       .strobe = options.strobe,
                       .ghost = settings.ghost});
   }
+  const std::string sound = options.sound.of(run.trajectory, settings, stop);
   FilmSettings told = settings;
   std::optional<Approval> approval;
   if (options.approve) {
@@ -346,6 +349,9 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
       },
       stop);
   setInterruptionHint("");
+  if (options.sound.asked) {
+    writeFile(settings.folder / "sound.wav", sound);
+  }
   if (truth) {
     writeTruth(run.trajectory, *truth, {}, stop);
   }
@@ -374,7 +380,7 @@ void addRender(const CommandLine& commandLine) {
   const auto options = std::make_shared<FilmOptions>();
   command.add("file", options->source,
               "Scene, trajectory file or table of poses; the default scene if none is named");
-  options->scene.addTo(command);
+  options->scene.addShowingTo(command);
   const CommandOption out =
       command.add("-o,--out", options->folder,
                   "Folder for the frames, or file of a single picture (default: out/ and the file's name)");
@@ -396,6 +402,7 @@ void addRender(const CommandLine& commandLine) {
   command.add("--quality", options->quality, "The video's: draft, good or best (default: good)").needs(video);
   command.add("--jobs", options->jobs,
               "Frames drawn at once, each in a process of its own (default: one for each core)");
+  const CommandOption sound = options->sound.addTo(command);
   const CommandOption resume =
       command.addFlag("--resume", options->resume,
                       "Keep the frames of the same film that are there and whole, and draw the others");
@@ -405,12 +412,12 @@ void addRender(const CommandLine& commandLine) {
   const CommandOption still =
       command
           .add("--still", options->still, "One picture, of this moment of the film [s], in place of the film")
-          .excludes(frames, video, resume, truth);
+          .excludes(frames, video, resume, truth, sound);
   const CommandOption strobe =
       command
           .add("--strobe", options->strobe,
                "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
-          .excludes(frames, video, resume, truth, still, ghost, blur);
+          .excludes(frames, video, resume, truth, still, ghost, blur, sound);
   const CommandLine comparing =
       command.addGroup("Comparing", "With a film that was made before: exit code 1 if this one differs");
   const CommandOption reference =
@@ -418,7 +425,7 @@ void addRender(const CommandLine& commandLine) {
           .add("--ref", options->reference,
                "Folder of that film. Its frames are drawn, of its size, rate and look unless told "
                "otherwise; those that differ stay in --out")
-          .excludes(still, strobe, video, resume, truth);
+          .excludes(still, strobe, video, resume, truth, sound);
   comparing
       .addFlag("--approve", options->approve,
                "The new film takes the place of that one unless they are the same; exit code 0")

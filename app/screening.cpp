@@ -17,9 +17,7 @@ Run pictured(Run run, const PictureOptions& options) {
 Screening::Screening(Run run, const PictureOptions& options)
     : run_(pictured(std::move(run), options)), filming_(run_.trajectory) {
   filming_.checkCamera(framesOf({}, frameCount()), rate());
-  if (picture().overlays.any()) {
-    overlays_.emplace(run_.trajectory, picture().overlays, rate().frameTime(1));
-  }
+  overlays_ = overlaysOf(run_.trajectory);
   RenderOptions render;
   render.context = options.contextOptions();
   filming_.prepare(render);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "picture_options.h"
@@ -33,7 +34,7 @@ class Screening {
 
   Run run_;
   Filming filming_;
-  std::optional<Overlays> overlays_;
+  std::unique_ptr<Overlays> overlays_;
   std::optional<Renderer> renderer_;
 };
 

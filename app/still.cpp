@@ -1,6 +1,7 @@
 #include "still.h"
 
 #include <iostream>
+#include <memory>
 #include <vector>
 
 #include "core/brief.h"
@@ -55,13 +56,12 @@ ExitCode drawStill(const Run& run, RenderOptions options, const Still& still) {
   Renderer renderer(run.trajectory, options);
   Picture picture = still.strobe ? filming.drawStrobe(renderer, moments)
                                  : filming.draw(renderer, moments[0], asked.shutter, asked.rate);
-  if (asked.overlays.any() || (still.ghost != nullptr && !still.strobe)) {
-    Overlays overlays(run.trajectory, asked.overlays, asked.rate.frameTime(1),
-                      still.strobe ? nullptr : still.ghost);
+  if (const std::unique_ptr<Overlays> overlays =
+          overlaysOf(run.trajectory, still.strobe ? nullptr : still.ghost)) {
     if (still.strobe) {
-      filming.explainStrobe(renderer, picture, moments, overlays);
+      filming.explainStrobe(renderer, picture, moments, *overlays);
     } else {
-      filming.explain(renderer, picture, moments[0], overlays);
+      filming.explain(renderer, picture, moments[0], *overlays);
     }
   }
   print(std::cout, outOfView(run.trajectory, moments), run.trajectory);

@@ -57,6 +57,7 @@ FilmManifest fromJson(const nlohmann::json& json) {
   manifest.libraries = json.value("libraries", "");
   manifest.sceneHash = json.at("scene_hash").get<std::string>();
   manifest.stateHash = json.at("state_hash").get<std::string>();
+  manifest.shownAs = json.value("shown_as", "");
   manifest.ghost = json.value("ghost", "");
   manifest.picture = pictureFrom(json);
   manifest.frameCount = wholeNumber(json.at("frame_count"), "frame_count", 0, kMostFrames);
@@ -133,6 +134,9 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"frame_count", manifest.frameCount},
       {"frames", rangesText(manifest.frames)},
   };
+  if (!manifest.shownAs.empty()) {
+    json["shown_as"] = manifest.shownAs;
+  }
   if (!manifest.ghost.empty()) {
     json["ghost"] = manifest.ghost;
   }
@@ -148,6 +152,8 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
   };
   std::string text =
       compare("scene", there.sceneHash, asked.sceneHash) + compare("run", there.stateHash, asked.stateHash) +
+      compare("shown as", there.shownAs.empty() ? "its scene" : there.shownAs,
+              asked.shownAs.empty() ? "its scene" : asked.shownAs) +
       compare("ghost", there.ghost.empty() ? "none" : there.ghost,
               asked.ghost.empty() ? "none" : asked.ghost) +
       compare("size", sizeText(there.picture), sizeText(asked.picture)) +

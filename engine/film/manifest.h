@@ -21,6 +21,7 @@ struct FilmManifest {
   std::string libraries;
   std::string sceneHash;
   std::string stateHash;  ///< of the final state of the run
+  std::string shownAs;    ///< hash of the scene whose camera and light it has; empty: the run's own
   std::string ghost;      ///< state hash of the run that is shown as outlines; empty: none
   PictureSettings picture;
   std::int64_t frameCount = 0;       ///< of the whole film

@@ -298,10 +298,7 @@ std::vector<Image> Run::frames(const std::vector<double>& filmTimes,
     RenderOptions options;
     filming.prepare(options);
     Renderer renderer(run, options);
-    std::optional<Overlays> overlays;
-    if (picture.overlays.any()) {
-      overlays.emplace(run, picture.overlays, picture.rate.frameTime(1));
-    }
+    const std::unique_ptr<Overlays> overlays = overlaysOf(run);
     std::vector<Image> images;
     for (const double time : filmTimes) {
       Picture drawn = filming.draw(renderer, time, picture.shutter, picture.rate);

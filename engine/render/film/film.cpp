@@ -48,6 +48,7 @@ FilmManifest manifestOf(const Trajectory& run, const FilmSettings& settings, dou
                         .libraries = librariesHere(),
                         .sceneHash = run.sceneHash(),
                         .stateHash = run.stateHash(),
+                        .shownAs = run.stage.shownAs,
                         .ghost = settings.ghost != nullptr ? settings.ghost->stateHash() : "",
                         .picture = run.stage.picture,
                         .frameCount = run.stage.picture.rate.frameCount(duration),
@@ -106,7 +107,7 @@ std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings, const Pictur
 
 // Sets up a job in its own process. The ring has slots if there is a video.
 FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const FilmSettings& settings,
-                           const std::vector<std::int64_t>& frames, std::optional<Overlays>& overlays,
+                           const std::vector<std::int64_t>& frames, std::unique_ptr<Overlays>& overlays,
                            int jobs, const PictureRing& ring) {
   if (glWasOpened()) {  // otherwise it would wait for threads that were not forked
     throw MachineError("no job can draw: GL had been opened before it was forked");
@@ -283,9 +284,9 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
       settings.there == FilmThere::kResume ? folder.missing(asked) : asked.frames;
 
   // Everything that may fail comes before the existing film is changed. Existing frames need no GL.
-  std::optional<Overlays> overlays;
-  if (!missing.empty() && (picture.overlays.any() || settings.ghost != nullptr)) {
-    overlays.emplace(run, picture.overlays, picture.rate.frameTime(1), settings.ghost);
+  std::unique_ptr<Overlays> overlays;
+  if (!missing.empty()) {
+    overlays = overlaysOf(run, settings.ghost);
   }
   const int jobs = jobCount(settings, missing.size());
   const PictureRing ring(settings.video ? jobs + 2 : 0, bytesOf(picture));
