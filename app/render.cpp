@@ -21,6 +21,7 @@
 #include "film/frame_range.h"
 #include "film_sound.h"
 #include "interruption.h"
+#include "other_runs.h"
 #include "parsed.h"
 #include "picture_options.h"
 #include "progress.h"
@@ -58,7 +59,7 @@ struct FilmOptions {
   bool approve = false;
   CompareOptions compare;
   SceneOfTable scene;
-  std::optional<std::filesystem::path> ghost;
+  OtherRuns others;
   std::optional<std::string> truth;
   Overrides overrides;
   EstimateChoice estimate;
@@ -160,9 +161,16 @@ void checkVideoOf(const PictureSettings& picture, FilmSettings& settings) {
   }
 }
 
+// With the runs beside it.
+PictureSettings wholePicture(const Run& run, const FilmSettings& settings) {
+  PictureSettings picture = run.trajectory.stage.picture;
+  picture.width *= static_cast<int>(1 + settings.beside.size());
+  return picture;
+}
+
 void writeReport(const Run& run, const FilmSettings& settings, const FilmFigures& figures,
                  double wallSeconds) {
-  const PictureSettings& picture = run.trajectory.stage.picture;
+  const PictureSettings picture = wholePicture(run, settings);
   nlohmann::ordered_json report = runReport(run, wallSeconds);
   report["seconds"]["draw"] = figures.drawSeconds;
   report["seconds"]["read"] = figures.readSeconds;
@@ -266,25 +274,6 @@ void refuseToOverwrite(const Reference& reference, FilmSettings& film) {
   film.there = FilmThere::kReplace;
 }
 
-// The other run that is shown as outlines. A table is one of the same scene.
-Trajectory readGhost(const std::filesystem::path& path, const SceneOfTable& scene, const Trajectory& run) {
-  if (!isRun(path)) {
-    static_cast<void>(readFile(path));  // tells if it is not there
-    throw InputError("--ghost: found " + path.string() + ", expected a trajectory file or a table of poses");
-  }
-  Trajectory ghost = readRun(path, scene, [&run] { return static_cast<const RunSetup&>(run); });
-  const auto isInRun = [&run](const Body& body) {
-    return !isImmovable(body.mass) &&
-           std::any_of(run.world.bodies.begin(), run.world.bodies.end(),
-                       [&body](const Body& other) { return other.name == body.name; });
-  };
-  if (std::none_of(ghost.world.bodies.begin(), ghost.world.bodies.end(), isInRun)) {
-    throw InputError("--ghost: found no box in " + path.string() +
-                     " that the film shows too, expected a run of the same boxes");
-  }
-  return ghost;
-}
-
 ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   const Stopwatch stopwatch;
   if (options.source.empty()) {
@@ -312,19 +301,17 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
     checkLabels(run.trajectory);
   }
   auditRun(run, options.audit, stop);
-  std::optional<Trajectory> ghost;
-  if (options.ghost) {
-    ghost = readGhost(*options.ghost, options.scene, run.trajectory);
-    settings.ghost = &*ghost;
-  }
   PictureSettings& picture = run.trajectory.stage.picture;
   options.picture.applyTo(picture);
+  const std::vector<Trajectory> others = options.others.read(run, options.scene);
+  options.others.takeInto(settings, others);
   checkVideoOf(picture, settings);
   if (!makesFilm) {
     return drawStill(run, settings.render,
                      {.path = options.folder,
                       .moment = options.still.value_or(0),
                       .strobe = options.strobe,
+                      .beside = settings.beside,
                       .ghost = settings.ghost});
   }
   const std::string sound = options.sound.of(run.trajectory, settings, stop);
@@ -365,7 +352,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (options.verbose) {
     printDrawing(summary, figures);
   }
-  printFilm(summary, told, picture, figures, reference ? &*reference : nullptr);
+  printFilm(summary, told, wholePicture(run, settings), figures, reference ? &*reference : nullptr);
   if (approval) {
     return approval->approve(options.compare, logsJson, stop);
   }
@@ -386,10 +373,7 @@ void addRender(const CommandLine& commandLine) {
                   "Folder for the frames, or file of a single picture (default: out/ and the file's name)");
   const CommandOption frames =
       command.add("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
-  const CommandOption ghost = command.add(
-      "--ghost", options->ghost,
-      "Another run of these boxes (trajectory file or table of poses): drawn as outlines, with the "
-      "distance");
+  const CommandOption others = options->others.addTo(command);
   const CommandOption truth =
       command.add("--truth", options->truth,
                   "Labels of every pixel of the frames too, as by 'careen truth': all, or names such as "
@@ -417,7 +401,7 @@ void addRender(const CommandLine& commandLine) {
       command
           .add("--strobe", options->strobe,
                "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
-          .excludes(frames, video, resume, truth, still, ghost, blur, sound);
+          .excludes(frames, video, resume, truth, still, others, blur, sound);
   const CommandLine comparing =
       command.addGroup("Comparing", "With a film that was made before: exit code 1 if this one differs");
   const CommandOption reference =
