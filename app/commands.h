@@ -21,6 +21,7 @@ void drawFilmOfRun(const Trajectory& run, const std::filesystem::path& folder,
 
 // Each adds one command with its options to the command line.
 void addRender(const CommandLine& commandLine);
+void addPage(const CommandLine& commandLine);
 void addSimulate(const CommandLine& commandLine);
 void addCompare(const CommandLine& commandLine);
 void addAudit(const CommandLine& commandLine);

@@ -70,6 +70,7 @@ int runCommandLine(int argc, char** argv, Interruption& interruption) {
   addHelp(commandLine);
   addInfo(commandLine);
 #ifdef CAREEN_RENDER
+  addPage(commandLine);
   addSweep(commandLine, drawFilmOfRun);
 #else
   addSweep(commandLine);

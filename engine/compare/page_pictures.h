@@ -29,7 +29,4 @@ std::vector<std::size_t> framesToShow(const Comparison& comparison, std::size_t 
 /// missing or broken picture is null, and so is everything that needs both.
 std::string picturesJson(const Comparison& comparison, std::size_t mostBytes = kPageBytes);
 
-/// RFC 4648, with padding.
-std::string base64(std::string_view bytes);
-
 }  // namespace careen

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base64.h"
 #include "exchange/export_glb.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
@@ -21,21 +22,6 @@ namespace careen {
 namespace {
 
 constexpr const char* kThree = "/usr/share/javascript/three/";
-
-std::string base64(const std::string& bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      bits = bits << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (unsigned k = 0; k < 4; ++k) {
-      text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63U] : '=';
-    }
-  }
-  return text;
-}
 
 // Loads the file by three.js' own loader and returns, for each time and name, the node's matrix in the world.
 std::string pageOf(const std::string& glb) {

@@ -23,6 +23,7 @@ inline const std::map<std::string, Names> kMayInclude = {
     {"compare", {"image", "trajectory", "core"}},
     {"view", {"trajectory", "physics", "stage", "core"}},
     {"sound", {"view", "trajectory", "physics", "stage", "core"}},
+    {"page", {"audit", "trajectory", "physics", "stage", "core"}},
     {"truth", {"view", "film", "trajectory", "stage", "physics", "core"}},
     {"sweep", {"scene", "trajectory", "audit", "question", "physics", "stage", "core"}},
     {"exchange", {"scene", "view", "trajectory", "physics", "stage", "core"}},
