@@ -219,6 +219,9 @@ void printFilm(std::ostream& out, const FilmSettings& settings, const PictureSet
   if (settings.video) {
     out << "film         "
         << printableName(std::filesystem::absolute(settings.video->path).lexically_normal().string()) << '\n';
+    if (const int rate = fallbackRate(*settings.video)) {
+      out << "its rate     " << rate << " per second: its format has no more\n";
+    }
     if (needsEvenSize(*settings.video) && (picture.width % 2 != 0 || picture.height % 2 != 0)) {
       out << "its size     " << picture.width + picture.width % 2 << 'x'
           << picture.height + picture.height % 2 << ": its format needs an even one, so the last "

@@ -113,7 +113,9 @@ std::string filterOf(const std::string& codec, const VideoSettings& settings) {
   }
   if (codec == "gif") {
     constexpr std::array<const char*, 3> kDither = {"none", "bayer:bayer_scale=4", "sierra2_4a"};
-    return std::string("split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=") +
+    const int rate = fallbackRate(settings);
+    return (rate > 0 ? "fps=" + std::to_string(rate) + "," : std::string()) +
+           std::string("split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=") +
            kDither.at(static_cast<std::size_t>(settings.quality));
   }
   return yuvFilter(settings.width, settings.height);
@@ -130,13 +132,15 @@ bool needsEvenSize(const VideoSettings& settings) {
   return codec != "webp" && codec != "gif";
 }
 
+int fallbackRate(const VideoSettings& settings) {
+  constexpr int kFastestGif = 50;
+  return codecOf(settings) == "gif" && settings.rateNumerator > kFastestGif * settings.rateDenominator
+             ? kFastestGif
+             : 0;
+}
+
 void checkVideo(const VideoSettings& settings) {
-  // GIF times are in hundredths of a second, and players replace delays below two of them by ten.
-  if (codecOf(settings) == "gif" && settings.rateNumerator > 50 * settings.rateDenominator) {
-    throw InputError(settings.path.string() + ": found " + std::to_string(settings.rateNumerator) + "/" +
-                     std::to_string(settings.rateDenominator) +
-                     " frames per second, expected at most 50 for a GIF");
-  }
+  static_cast<void>(codecOf(settings));
   if (!settings.sound.empty() && !needsEvenSize(settings)) {
     throw InputError(settings.path.string() + ": found " + settings.path.extension().string() +
                      ", which has no sound, expected .mp4, .mkv or .webm for a film with sound");

@@ -25,13 +25,16 @@ struct VideoSettings {
 /// "draft", "good", "best"; InputError for another.
 VideoQuality videoQualityNamed(std::string_view name);
 
-/// InputError for an unsupported suffix, codec or rate; the message lists what is supported. Size and rate
-/// must be set.
+/// InputError for an unsupported suffix or codec; the message lists what is supported.
 void checkVideo(const VideoSettings& settings);
 
 /// Whether films of this format have even widths and heights: of an odd one, the last column or row comes
 /// twice.
 bool needsEvenSize(const VideoSettings& settings);
+
+/// Frames per second that the file cannot have: what it has instead; 0 if it has those of the settings. Times
+/// of a GIF are hundredths of a second, and players replace delays below two of them by ten.
+int fallbackRate(const VideoSettings& settings);
 
 /// The command with which ffmpeg reads frames from its standard input, 8-bit RGB, and writes the film to
 /// `output`, with the sound in the file `sound` if there is one. Films are tagged as BT.709 with the sRGB

@@ -27,7 +27,7 @@ Picture joined(const std::vector<Picture>& pictures) {
 
 void entitle(Trajectory& run, const std::string& name) {
   // From before the film begins, so that it does not fade.
-  run.stage.scenery.titles.push_back({.from = -1, .to = 1e9, .text = name, .place = TitlePlace::kTop});
+  run.stage.scenery.titles.push_back({.from = -1, .to = 1e9, .text = name, .place = TitlePlace::kBottom});
 }
 
 }  // namespace
