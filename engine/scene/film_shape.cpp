@@ -86,7 +86,9 @@ template <class Enum, const auto& kNames>
 NameSet<Enum, kNames> readNames(const JsonValue& value, const std::string& one, const std::string& example) {
   NameSet<Enum, kNames> set;
   const std::vector<std::string_view> names(kNames.begin(), kNames.end());
-  for (const JsonValue& each : value.elements("an array of " + one + "s such as [\"" + example + "\"]")) {
+  const std::string expected =
+      std::string("an array of ").append(one).append("s such as [\"").append(example) + "\"]";
+  for (const JsonValue& each : value.elements(expected)) {
     const auto named = static_cast<Enum>(each.word(names, one));
     if (set.has(named)) {
       each.fail("each " + one + " once");

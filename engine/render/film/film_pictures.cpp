@@ -35,11 +35,10 @@ void entitle(Trajectory& run, const std::string& name) {
 FilmPictures::FilmPictures(const Trajectory& run, std::span<const Trajectory* const> beside,
                            const Trajectory* ghost) {
   const auto add = [this](const Trajectory& shown, const Trajectory* itsGhost) {
-    shown_.push_back({.run = &shown,
-                      .ghost = itsGhost,
-                      .filming = std::make_unique<Filming>(shown),
-                      .overlays = nullptr,
-                      .renderer = nullptr});
+    Shown& each = shown_.emplace_back();
+    each.run = &shown;
+    each.ghost = itsGhost;
+    each.filming = std::make_unique<Filming>(shown);
   };
   add(run, ghost);
   for (const Trajectory* const each : beside) {

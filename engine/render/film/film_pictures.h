@@ -44,8 +44,8 @@ class FilmPictures {
 
  private:
   struct Shown {
-    const Trajectory* run;
-    const Trajectory* ghost;
+    const Trajectory* run = nullptr;
+    const Trajectory* ghost = nullptr;
     std::unique_ptr<Filming> filming;
     std::unique_ptr<Overlays> overlays;
     std::unique_ptr<Renderer> renderer;
