@@ -109,7 +109,7 @@ TEST(Overlap, aWallIsMeasuredFromTheLowestCorner) {
       lowest =
           std::min(lowest, wall.normal.dot(box.pose.worldPoint(corner(box.halfExtents, k))) - wall.offset);
     }
-    EXPECT_NEAR(separationOf(box, wall), lowest, 1e-14);
+    EXPECT_NEAR(separationOf(box, planeAt(wall, 0)), lowest, 1e-14);
   }
 }
 

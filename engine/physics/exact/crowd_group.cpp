@@ -19,8 +19,8 @@ std::size_t listedOf(const Mover& body) { return static_cast<std::size_t>(body.l
 
 }  // namespace
 
-CrowdGroup::CrowdGroup(Bodies& bodies)
-    : bodies_(bodies), crowd_(bodies.world(), bodies.crowds().tolerance, bodies.team()) {}
+CrowdGroup::CrowdGroup(Bodies& bodies, const Instant& time)
+    : bodies_(bodies), crowd_(bodies.world(), bodies.crowds().tolerance, bodies.team(), time.hi) {}
 
 bool CrowdGroup::enter(Encounter& encounter, int /*rank*/) {
   const auto self = std::static_pointer_cast<CrowdGroup>(shared_from_this());
@@ -51,7 +51,7 @@ void CrowdGroup::form(Bodies& bodies, const Encounter& encounter) {
     }
   }
   if (!crowd) {
-    crowd = std::make_shared<CrowdGroup>(bodies);
+    crowd = std::make_shared<CrowdGroup>(bodies, encounter.time);
   }
   for (const EncounterBody& body : encounter.bodies) {
     crowd->enlist(body.mover->rank, encounter.time, body.before, body.attitude);
@@ -86,6 +86,9 @@ void CrowdGroup::keepPlace(int rank, std::size_t place) {
   ranks_[place] = rank;
   joined_[place] = newPath(bodies_, rank);
   if (!bodies_[rank].isHeld()) {
+    if (bodies_[rank].wall) {  // it sees to that
+      bodies_.queue().clear(rank);
+    }
     bodies_[rank].group = shared_from_this();
     bodies_[rank].place = place;
     bodies_[rank].doubt.atLeast(bodies_.crowds().tolerance);
@@ -313,7 +316,7 @@ std::optional<Encounter> CrowdGroup::advance(const Instant& time) {
       }
     }
     for (const int rank : ranks_) {
-      if (rank >= 0 && bodies_[rank].isDriven()) {
+      if (rank >= 0 && (bodies_[rank].isDriven() || bodies_[rank].wall)) {
         bodies_.predict(rank);
       }
     }

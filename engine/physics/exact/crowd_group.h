@@ -16,7 +16,7 @@ namespace careen {
 /// go what nothing touches.
 class CrowdGroup final : public ContactGroup {
  public:
-  explicit CrowdGroup(Bodies& bodies);
+  CrowdGroup(Bodies& bodies, const Instant& time);
 
   /// The bodies of an encounter, and the crowds that they meet, are one crowd from there on.
   static void form(Bodies& bodies, const Encounter& encounter);

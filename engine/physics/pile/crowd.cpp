@@ -34,8 +34,8 @@ constexpr double kMoreBent = 1.04;
 
 }  // namespace
 
-Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team)
-    : members_(world, tolerance, std::move(team)),
+Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team, double time)
+    : members_(world, tolerance, std::move(team), time),
       loads_(members_, memory_),
       contacts_(members_),
       articulations_(members_),
@@ -147,7 +147,9 @@ double Crowd::chooseLength() const {
   double bending = 0;  // [m/s²]
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const PileBody& body = members_[i];
-    if (!body.stays()) {
+    if (!body.isBox()) {
+      addWall(body, fastest, bending);
+    } else if (!body.stays()) {
       const double times = articulations_.isJoined(static_cast<int>(i)) ? kJoinedBend : 1;
       fastest = std::max(fastest, (body.velocity.norm() + longest * members_.gravity) / body.length);
       bending = std::max(bending, times * body.radius * body.omega.squaredNorm());
@@ -167,6 +169,24 @@ double Crowd::chooseLength() const {
     h = std::min(h, std::max(straight, kShortestTurn * kShortestStep * members_.scale));
   }
   return std::min(h, loads_.longestStep());
+}
+
+// As it moves where members are, relative to the size of the smallest of them.
+void Crowd::addWall(const PileBody& wall, double& fastest, double& bending) const {
+  if (!wall.isDriven()) {
+    return;
+  }
+  const MotionRates rates = boundsOf(wall.drivenBy->motion);
+  double farthest = 0;
+  double smallest = wall.length;
+  for (const PileBody& body : members_.bodies) {
+    if (body.isBox() && !body.absent && !body.held()) {
+      farthest = std::max(farthest, (body.position - wall.position).norm());
+      smallest = std::min(smallest, body.length);
+    }
+  }
+  fastest = std::max(fastest, (wall.velocity.norm() + farthest * wall.omega.norm()) / smallest);
+  bending = std::max(bending, rates.acceleration + farthest * rates.angularAcceleration);
 }
 
 // Members and what acts on them → who wakes → contacts → impulses → motion, and bounces → apart → who sleeps.
