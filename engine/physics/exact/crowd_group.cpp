@@ -310,16 +310,7 @@ std::optional<Encounter> CrowdGroup::advance(const Instant& time) {
   commit(time);
   const std::vector<int> released = release(time);
   if (crowd_.atRest()) {
-    for (const int rank : ranks_) {
-      if (rank >= 0) {
-        bodies_[rank].group.reset();
-      }
-    }
-    for (const int rank : ranks_) {
-      if (rank >= 0 && (bodies_[rank].isDriven() || bodies_[rank].wall)) {
-        bodies_.predict(rank);
-      }
-    }
+    letGo();
   } else {
     go(time);
   }
@@ -327,6 +318,27 @@ std::optional<Encounter> CrowdGroup::advance(const Instant& time) {
     bodies_.predict(rank);
   }
   return std::nullopt;
+}
+
+// All that it has rest; what is driven comes to them from now on.
+void CrowdGroup::letGo() {
+  for (const int rank : ranks_) {
+    if (rank >= 0) {
+      bodies_[rank].group.reset();
+    }
+  }
+  for (const int rank : ranks_) {
+    if (rank >= 0 && (bodies_[rank].isDriven() || bodies_[rank].wall)) {
+      bodies_.predict(rank);
+    }
+  }
+}
+
+bool CrowdGroup::isAnyDriven() const {
+  const auto isDriven = [&](int rank) { return rank >= 0 && bodies_[rank].isDriven(); };
+  return std::any_of(ranks_.begin(), ranks_.end(), isDriven) ||
+         std::any_of(bodies_.walls().begin(), bodies_.walls().end(),
+                     [](const Mover& wall) { return wall.isDriven(); });
 }
 
 // Ends its step now, perhaps early: then in more than one, if it needs shorter ones. Members who joined that
@@ -428,6 +440,9 @@ void CrowdGroup::go(const Instant& time) {
   bodies_.account().solvedCrowd(crowd_.takeResiduals());
   if (any && earlier(end(), bodies_.end())) {
     bodies_.queue().set({.time = end(), .kind = EventKind::kStep, .body = leader_});
+  }
+  if (!any && isAnyDriven()) {  // those that moved have left it: it takes no more steps
+    letGo();
   }
   for (const int rank : nearStep(bodies_, *this)) {
     bodies_.predict(rank);

@@ -47,6 +47,8 @@ class CrowdGroup final : public ContactGroup {
   bool admitMet(const Instant& time, Taken taken);
   void joinStep(const Encounter& encounter);
   std::vector<int> release(const Instant& time);
+  void letGo();
+  bool isAnyDriven() const;
   // Their paths, to be recorded.
   double pastOf(const Mover& body, const Instant& time) const;
   std::vector<char> changedSuddenly() const;
