@@ -178,15 +178,18 @@ void Crowd::addWall(const PileBody& wall, double& fastest, double& bending) cons
   }
   const MotionRates rates = boundsOf(wall.drivenBy->motion);
   double farthest = 0;
+  double speed = 0;
   double smallest = wall.length;
   for (const PileBody& body : members_.bodies) {
     if (body.isBox() && !body.absent && !body.held()) {
       farthest = std::max(farthest, (body.position - wall.position).norm());
+      speed = std::max(speed, (body.velocity - wall.velocity).norm());
       smallest = std::min(smallest, body.length);
     }
   }
   fastest = std::max(fastest, (wall.velocity.norm() + farthest * wall.omega.norm()) / smallest);
-  bending = std::max(bending, rates.acceleration + farthest * rates.angularAcceleration);
+  const double turning = rates.angularSpeed * rates.angularSpeed + rates.angularAcceleration;
+  bending = std::max(bending, rates.acceleration + farthest * turning + 2 * rates.angularSpeed * speed);
 }
 
 // Members and what acts on them → who wakes → contacts → impulses → motion, and bounces → apart → who sleeps.

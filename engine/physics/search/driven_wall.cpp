@@ -34,17 +34,20 @@ class DrivenWallApproach {
     const Attitude now = box_.attitudeAfter(elapsed);
     const Vec3 turning = normal_.cross(now.angularVelocity - at_.angularVelocity);
     const Vec3 arm = now.worldFromBody * box_.center;
-    bound_ = ConcaveBound(dot(normal_, offset_) + dot(normal_, arm), centreRate() + dot(turning, arm),
-                          centreCurvature() + turningBoth_ * radius_);
+    const double height = dot(normal_, offset_) + dot(normal_, arm);
+    gap_ = height;
     for (int i = 0; i < 3; ++i) {
-      const Vec3 edge = now.worldFromBody.col(i);
-      bound_.addKink(box_.halfExtents(i), dot(normal_, edge), dot(turning, edge));
+      gap_ -= box_.halfExtents(i) * std::fabs(dot(normal_, now.worldFromBody.col(i)));
     }
-    gap_ = bound_.value();
     const Driven& driven = wall_.driven;
     tolerance_ = kGapRounding *
                  (box_.position.norm() + elapsed * speedAt(0.5 * elapsed) + radius_ + driven.pivot.norm() +
                   driven.arm.norm() + driven.amplitude.norm() + (wall_.age + time) * rates_.speed);
+    bound_ = ConcaveBound(height, centreRate() + dot(turning, arm), chooseCurvature());
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 edge = now.worldFromBody.col(i);
+      bound_.addKink(box_.halfExtents(i), dot(normal_, edge), dot(turning, edge));
+    }
     approach_ = -bound_.rateAhead(tolerance_);
     rateTolerance_ = kRateRounding * (speedAt(elapsed) + rates_.speed + rates_.angularSpeed * offset_.norm() +
                                       radius_ * (box_.angularSpeedBound + rates_.angularSpeed));
@@ -66,14 +69,28 @@ class DrivenWallApproach {
   }
 
  private:
-  double speedAt(double elapsed) const {
-    return box_.velocity.norm() + elapsed * box_.acceleration.norm();
-  }
-  double centreRate() const {
-    return dot(normal_, rate_) + dot(at_.angularVelocity.cross(normal_), offset_);
-  }
+  double speedAt(double elapsed) const { return box_.velocity.norm() + elapsed * box_.acceleration.norm(); }
+  double centreRate() const { return dot(normal_, rate_) + dot(at_.angularVelocity.cross(normal_), offset_); }
   double centreCurvature() const {
     return turningWall_ * mostDistance_ + 2 * rates_.angularSpeed * mostSpeed_ + acceleration_;
+  }
+
+  // Of one that swings without a turn, for a little longer than the bound for ever would reach, what it is
+  // now and what it becomes meanwhile: where a floor that swings lets go, it is small.
+  double chooseCurvature() {
+    constexpr double kLonger = 16;
+    const double ever = centreCurvature() + turningBoth_ * radius_;
+    if (rates_.angularSpeed != 0 || !wall_.driven.swings()) {
+      return ever;
+    }
+    const double ahead = kLonger * std::sqrt(2 * std::max(gap_, 8 * tolerance_) / ever);
+    const double now = dot(normal_, at_.acceleration - box_.acceleration) + turningBoth_ * radius_;
+    const double soon = std::max(0.0, now + ahead * wall_.driven.rate * rates_.acceleration);
+    if (soon >= ever) {
+      return ever;
+    }
+    validity_ = ahead;
+    return soon;
   }
 
   // Of a wall that turns the bounds hold until the centre can have moved half the length that they have.
