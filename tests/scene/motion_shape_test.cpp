@@ -82,7 +82,7 @@ TEST(MotionShape, refusesWhatIsNone) {
 }
 
 std::string sceneOfWall(const std::string& wall) {
-  return R"({ "careen": 1, "duration": 1, "boxes": [ { "half_extents": [1, 1, 1], "mass": 1 } ],
+  return R"({ "careen": 1, "duration": 1, "boxes": [ { "half_extents": [1, 1, 1], "mass": 1, "position": [0, 0, 9] } ],
               "walls": [ { "normal": [0, 0, 2], )" +
          wall + " } ] }";
 }

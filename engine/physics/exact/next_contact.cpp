@@ -59,10 +59,10 @@ FirstContact meetPlane(const MovingBox& box, const WallPlane& plane, double unti
 
 FirstContact meetDriven(const MovingBox& box, const DrivenWall& wall, double until) {
   if (wall.isUniform()) {
-    return meetPlane(seenFrom(wall, box), wall.planeAt(0), until);
+    return meetPlane(seenFrom(wall, box), {wall.normalAt(0), wall.offsetAt(0)}, until);
   }
-  return searchUntil(
-      until, [&](const SearchWindow& window) { return firstContactWithWall(box, wall, window); });
+  return searchUntil(until,
+                     [&](const SearchWindow& window) { return firstContactWithWall(box, wall, window); });
 }
 
 // Of one of its boxes with any wall, if it is before `until` [s] of the body's motion, which then is its
@@ -91,7 +91,8 @@ void meetWalls(const Mover& body, int index, std::span<const Mover> walls, doubl
     }
     const FirstContact contact =
         wall.isDriven()
-            ? meetDriven(box, {*wall.halfSpace, wall.drivenBy->motion, wall.elapsed(body.start)}, until)
+            ? meetDriven(box, {wall.halfSpace->normal, wall.drivenBy->motion, wall.elapsed(body.start)},
+                         until)
             : meetPlane(box, planeOf(*wall.halfSpace, wall.pose), until);
     if (contact.kind != ContactKind::kNone && (!first || contact.time < until)) {
       until = contact.time;

@@ -32,6 +32,27 @@ constexpr double kJoinedBend = 3;  // [1] times as much where it opens a joint, 
 constexpr double kLessBent = 0.85;
 constexpr double kMoreBent = 1.04;
 
+// As it moves where members are, relative to the size of the smallest of them.
+void addWall(const CrowdMembers& members, const PileBody& wall, double& fastest, double& bending) {
+  if (!wall.isDriven()) {
+    return;
+  }
+  const MotionRates rates = boundsOf(wall.drivenBy->motion);
+  double farthest = 0;
+  double speed = 0;
+  double smallest = wall.length;
+  for (const PileBody& body : members.bodies) {
+    if (body.isBox() && !body.absent && !body.held()) {
+      farthest = std::max(farthest, (body.position - wall.position).norm());
+      speed = std::max(speed, (body.velocity - wall.velocity).norm());
+      smallest = std::min(smallest, body.length);
+    }
+  }
+  fastest = std::max(fastest, (wall.velocity.norm() + farthest * wall.omega.norm()) / smallest);
+  const double turning = rates.angularSpeed * rates.angularSpeed + rates.angularAcceleration;
+  bending = std::max(bending, rates.acceleration + farthest * turning + 2 * rates.angularSpeed * speed);
+}
+
 }  // namespace
 
 Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team, double time)
@@ -148,7 +169,7 @@ double Crowd::chooseLength() const {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const PileBody& body = members_[i];
     if (!body.isBox()) {
-      addWall(body, fastest, bending);
+      addWall(members_, body, fastest, bending);
     } else if (!body.stays()) {
       const double times = articulations_.isJoined(static_cast<int>(i)) ? kJoinedBend : 1;
       fastest = std::max(fastest, (body.velocity.norm() + longest * members_.gravity) / body.length);
@@ -169,27 +190,6 @@ double Crowd::chooseLength() const {
     h = std::min(h, std::max(straight, kShortestTurn * kShortestStep * members_.scale));
   }
   return std::min(h, loads_.longestStep());
-}
-
-// As it moves where members are, relative to the size of the smallest of them.
-void Crowd::addWall(const PileBody& wall, double& fastest, double& bending) const {
-  if (!wall.isDriven()) {
-    return;
-  }
-  const MotionRates rates = boundsOf(wall.drivenBy->motion);
-  double farthest = 0;
-  double speed = 0;
-  double smallest = wall.length;
-  for (const PileBody& body : members_.bodies) {
-    if (body.isBox() && !body.absent && !body.held()) {
-      farthest = std::max(farthest, (body.position - wall.position).norm());
-      speed = std::max(speed, (body.velocity - wall.velocity).norm());
-      smallest = std::min(smallest, body.length);
-    }
-  }
-  fastest = std::max(fastest, (wall.velocity.norm() + farthest * wall.omega.norm()) / smallest);
-  const double turning = rates.angularSpeed * rates.angularSpeed + rates.angularAcceleration;
-  bending = std::max(bending, rates.acceleration + farthest * turning + 2 * rates.angularSpeed * speed);
 }
 
 // Members and what acts on them → who wakes → contacts → impulses → motion, and bounces → apart → who sleeps.

@@ -149,7 +149,6 @@ class Crowd {
   enum class Shifts : char { kMay, kMayNot };
   std::size_t place(const PileBody& body, std::size_t listed);
   double chooseLength() const;
-  void addWall(const PileBody& wall, double& fastest, double& bending) const;
   void take(double length, Shifts shifts);
   void goBack();
   double keepApart();

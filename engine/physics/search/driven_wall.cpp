@@ -96,7 +96,7 @@ class DrivenWallApproach {
   // Of a wall that turns the bounds hold until the centre can have moved half the length that they have.
   void moveCentre(double time) {
     at_ = wall_.driven.at(wall_.age + time);
-    normal_ = at_.pose.worldFromBody * wall_.wall.normal;
+    normal_ = at_.pose.worldFromBody * wall_.normal;
     offset_ = box_.positionAt(time) - at_.pose.position;
     rate_ = box_.velocityAt(time) - at_.velocity;
     if (rates_.angularSpeed == 0) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "physics/search/first_contact_search.h"
+#include "physics/world/course.h"
 #include "support/tumbling_box.h"
 
 namespace careen {
@@ -46,10 +47,11 @@ Course courseBy(Dice& dice, bool turns) {
 
 // The lowest corner over the wall at that time.
 double gapAt(const TumblingBox& box, const DrivenWall& wall, double time) {
-  const WallPlane plane = wall.planeAt(time);
+  const Vec3 normal = wall.normalAt(time);
+  const double offset = wall.offsetAt(time);
   double lowest = kNever;
   for (const Vec3& corner : box.corners<double>(time)) {
-    lowest = std::min(lowest, dot(plane.normal, corner) - plane.offset);
+    lowest = std::min(lowest, dot(normal, corner) - offset);
   }
   return lowest;
 }
@@ -61,11 +63,9 @@ TEST(DrivenWall, theFirstRootIsFound) {
   double farthest = 0;
   for (int toss = 0; toss < 600; ++toss) {
     const TumblingBox box = tossedBox(dice);
-    const Wall wall{.name = "wall",
-                    .normal = Vec3(dice.between(-0.5, 0.5), dice.between(-0.5, 0.5), 1).normalized(),
-                    .material = {},
-                    .course = courseBy(dice, toss % 2 == 0)};
-    const DrivenWall driven{.wall = wall, .driven = wall.course.front().motion, .age = dice.between(0, 1)};
+    const Vec3 normal = Vec3(dice.between(-0.5, 0.5), dice.between(-0.5, 0.5), 1).normalized();
+    const Course course = courseBy(dice, toss % 2 == 0);
+    const DrivenWall driven{.normal = normal, .driven = course.front().motion, .age = dice.between(0, 1)};
     if (gapAt(box, driven, 0) < 0.01) {
       continue;
     }
@@ -91,20 +91,16 @@ TEST(DrivenWall, aUniformOneIsStillAsSeenFromIt) {
   Dice dice(4);
   for (int toss = 0; toss < 50; ++toss) {
     const TumblingBox box = tossedBox(dice);
-    const Wall wall{.name = "wall",
-                    .normal = Vec3::UnitZ(),
-                    .material = {},
-                    .course = courseOf({.path = {}, .velocity = Vec3(1, 0, 0.5)}, {})};
-    const DrivenWall driven{.wall = wall, .driven = wall.course.front().motion, .age = 0.25};
+    const Course course = courseOf({.path = {}, .velocity = Vec3(1, 0, 0.5)}, {});
+    const DrivenWall driven{.normal = Vec3::UnitZ(), .driven = course.front().motion, .age = 0.25};
     ASSERT_TRUE(driven.isUniform());
     if (gapAt(box, driven, 0) < 0.01) {
       continue;
     }
-    const WallPlane plane = driven.planeAt(0);
-    EXPECT_EQ(plane.offset, 0.125);
+    EXPECT_EQ(driven.offsetAt(0), 0.125);
     const MovingBox moving = box.moving();
     const FirstContact seen =
-        firstContactWithWall(seenFrom(driven, moving), plane.normal, plane.offset, {.from = 0, .until = 2});
+        firstContactWithWall(seenFrom(driven, moving), Vec3::UnitZ(), 0.125, {.from = 0, .until = 2});
     const FirstContact found = firstContactWithWall(moving, driven, {.from = 0, .until = 2});
     ASSERT_EQ(seen.kind, found.kind);
     EXPECT_NEAR(seen.time, found.time, 1e-13);
@@ -112,15 +108,12 @@ TEST(DrivenWall, aUniformOneIsStillAsSeenFromIt) {
   }
 }
 
-// h/2 g t² = A sin ωt has no root before A ω² is more than g; a box at rest is met where A sin ωt is its gap.
+// A box at rest is met where A sin ωt is its gap.
 TEST(DrivenWall, whatRestsIsMet) {
   const TumblingBox box{.halfExtents = Vec3::Constant(0.1), .position = Vec3(0, 0, 0.2)};
-  const Wall wall{.name = "wall",
-                  .normal = Vec3::UnitZ(),
-                  .material = {},
-                  .course = courseOf({.path = {}, .amplitude = Vec3(0, 0, 0.2), .rate = 2}, {})};
+  const Course course = courseOf({.path = {}, .amplitude = Vec3(0, 0, 0.2), .rate = 2}, {});
   const FirstContact met =
-      firstContactWithWall(box.moving(), {wall, wall.course.front().motion, 0}, {.from = 0, .until = 2});
+      firstContactWithWall(box.moving(), {Vec3::UnitZ(), course.front().motion, 0}, {.from = 0, .until = 2});
   EXPECT_EQ(met.kind, ContactKind::kImpact);
   EXPECT_NEAR(met.time, std::asin(0.5) / 2, 1e-15);
   EXPECT_NEAR(met.approach, 0.4 * std::cos(std::asin(0.5)), 1e-14);
