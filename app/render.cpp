@@ -19,7 +19,9 @@
 #include "core/system/processor.h"
 #include "film/folder.h"
 #include "film/frame_range.h"
+#include "film_sound.h"
 #include "interruption.h"
+#include "other_runs.h"
 #include "parsed.h"
 #include "picture_options.h"
 #include "progress.h"
@@ -52,11 +54,12 @@ struct FilmOptions {
   bool overwrite = false;
   PictureOptions picture;
   bool listBackends = false;
+  SoundChoice sound;
   std::optional<std::filesystem::path> reference;
   bool approve = false;
   CompareOptions compare;
   SceneOfTable scene;
-  std::optional<std::filesystem::path> ghost;
+  OtherRuns others;
   std::optional<std::string> truth;
   Overrides overrides;
   EstimateChoice estimate;
@@ -158,9 +161,16 @@ void checkVideoOf(const PictureSettings& picture, FilmSettings& settings) {
   }
 }
 
+// With the runs beside it.
+PictureSettings wholePicture(const Run& run, const FilmSettings& settings) {
+  PictureSettings picture = run.trajectory.stage.picture;
+  picture.width *= static_cast<int>(1 + settings.beside.size());
+  return picture;
+}
+
 void writeReport(const Run& run, const FilmSettings& settings, const FilmFigures& figures,
                  double wallSeconds) {
-  const PictureSettings& picture = run.trajectory.stage.picture;
+  const PictureSettings picture = wholePicture(run, settings);
   nlohmann::ordered_json report = runReport(run, wallSeconds);
   report["seconds"]["draw"] = figures.drawSeconds;
   report["seconds"]["read"] = figures.readSeconds;
@@ -264,25 +274,6 @@ void refuseToOverwrite(const Reference& reference, FilmSettings& film) {
   film.there = FilmThere::kReplace;
 }
 
-// The other run that is shown as outlines. A table is one of the same scene.
-Trajectory readGhost(const std::filesystem::path& path, const SceneOfTable& scene, const Trajectory& run) {
-  if (!isRun(path)) {
-    static_cast<void>(readFile(path));  // tells if it is not there
-    throw InputError("--ghost: found " + path.string() + ", expected a trajectory file or a table of poses");
-  }
-  Trajectory ghost = readRun(path, scene, [&run] { return static_cast<const RunSetup&>(run); });
-  const auto isInRun = [&run](const Body& body) {
-    return !isImmovable(body.mass) &&
-           std::any_of(run.world.bodies.begin(), run.world.bodies.end(),
-                       [&body](const Body& other) { return other.name == body.name; });
-  };
-  if (std::none_of(ghost.world.bodies.begin(), ghost.world.bodies.end(), isInRun)) {
-    throw InputError("--ghost: found no box in " + path.string() +
-                     " that the film shows too, expected a run of the same boxes");
-  }
-  return ghost;
-}
-
 ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   const Stopwatch stopwatch;
   if (options.source.empty()) {
@@ -310,21 +301,20 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
     checkLabels(run.trajectory);
   }
   auditRun(run, options.audit, stop);
-  std::optional<Trajectory> ghost;
-  if (options.ghost) {
-    ghost = readGhost(*options.ghost, options.scene, run.trajectory);
-    settings.ghost = &*ghost;
-  }
   PictureSettings& picture = run.trajectory.stage.picture;
   options.picture.applyTo(picture);
+  const std::vector<Trajectory> others = options.others.read(run, options.scene);
+  options.others.takeInto(settings, others);
   checkVideoOf(picture, settings);
   if (!makesFilm) {
     return drawStill(run, settings.render,
                      {.path = options.folder,
                       .moment = options.still.value_or(0),
                       .strobe = options.strobe,
+                      .beside = settings.beside,
                       .ghost = settings.ghost});
   }
+  const std::string sound = options.sound.of(run.trajectory, settings, stop);
   FilmSettings told = settings;
   std::optional<Approval> approval;
   if (options.approve) {
@@ -346,6 +336,9 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
       },
       stop);
   setInterruptionHint("");
+  if (options.sound.asked) {
+    writeFile(settings.folder / "sound.wav", sound);
+  }
   if (truth) {
     writeTruth(run.trajectory, *truth, {}, stop);
   }
@@ -359,7 +352,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (options.verbose) {
     printDrawing(summary, figures);
   }
-  printFilm(summary, told, picture, figures, reference ? &*reference : nullptr);
+  printFilm(summary, told, wholePicture(run, settings), figures, reference ? &*reference : nullptr);
   if (approval) {
     return approval->approve(options.compare, logsJson, stop);
   }
@@ -374,16 +367,13 @@ void addRender(const CommandLine& commandLine) {
   const auto options = std::make_shared<FilmOptions>();
   command.add("file", options->source,
               "Scene, trajectory file or table of poses; the default scene if none is named");
-  options->scene.addTo(command);
+  options->scene.addShowingTo(command);
   const CommandOption out =
       command.add("-o,--out", options->folder,
                   "Folder for the frames, or file of a single picture (default: out/ and the file's name)");
   const CommandOption frames =
       command.add("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
-  const CommandOption ghost = command.add(
-      "--ghost", options->ghost,
-      "Another run of these boxes (trajectory file or table of poses): drawn as outlines, with the "
-      "distance");
+  const CommandOption others = options->others.addTo(command);
   const CommandOption truth =
       command.add("--truth", options->truth,
                   "Labels of every pixel of the frames too, as by 'careen truth': all, or names such as "
@@ -396,6 +386,7 @@ void addRender(const CommandLine& commandLine) {
   command.add("--quality", options->quality, "The video's: draft, good or best (default: good)").needs(video);
   command.add("--jobs", options->jobs,
               "Frames drawn at once, each in a process of its own (default: one for each core)");
+  const CommandOption sound = options->sound.addTo(command);
   const CommandOption resume =
       command.addFlag("--resume", options->resume,
                       "Keep the frames of the same film that are there and whole, and draw the others");
@@ -405,12 +396,12 @@ void addRender(const CommandLine& commandLine) {
   const CommandOption still =
       command
           .add("--still", options->still, "One picture, of this moment of the film [s], in place of the film")
-          .excludes(frames, video, resume, truth);
+          .excludes(frames, video, resume, truth, sound);
   const CommandOption strobe =
       command
           .add("--strobe", options->strobe,
                "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
-          .excludes(frames, video, resume, truth, still, ghost, blur);
+          .excludes(frames, video, resume, truth, still, others, blur, sound);
   const CommandLine comparing =
       command.addGroup("Comparing", "With a film that was made before: exit code 1 if this one differs");
   const CommandOption reference =
@@ -418,7 +409,7 @@ void addRender(const CommandLine& commandLine) {
           .add("--ref", options->reference,
                "Folder of that film. Its frames are drawn, of its size, rate and look unless told "
                "otherwise; those that differ stay in --out")
-          .excludes(still, strobe, video, resume, truth);
+          .excludes(still, strobe, video, resume, truth, sound);
   comparing
       .addFlag("--approve", options->approve,
                "The new film takes the place of that one unless they are the same; exit code 0")

@@ -24,6 +24,7 @@
 #include "scene/plan.h"
 #include "scene/prepare.h"
 #include "scene/scene_reader.h"
+#include "scene/shown_as.h"
 #include "trajectory/given_run.h"
 #include "trajectory/pose_table.h"
 #include "trajectory/trajectory_file.h"
@@ -121,11 +122,16 @@ Trajectory readRunOf(const std::string& bytes, const std::filesystem::path& path
     const PoseTable table = readTable(bytes, path.string(), scene.shiftsTime, start.settings.duration);
     return givenRun(std::move(start), table);
   }
-  if (scene.given() != nullptr && !setup) {
-    throw InputError(std::string(scene.given()) + ": found the run " + path.string() +
+  if (scene.useless() != nullptr && !setup) {
+    throw InputError(std::string(scene.useless()) + ": found the run " + path.string() +
                      ", which has its scene; expected a table of poses");
   }
-  return decodeTrajectory(bytes, path.string());
+  Trajectory run = decodeTrajectory(bytes, path.string());
+  if (scene.path && scene.mayShow && !setup) {
+    const auto [text, name] = sceneTextOf(*scene.path, readFile(*scene.path));
+    showAs(run, text, name);
+  }
+  return run;
 }
 
 }  // namespace
@@ -234,8 +240,25 @@ RunFigures Run::statedFigures() const {
 void SceneOfTable::addTo(const CommandLine& command) {
   command.add("--scene", path,
               "Scene of a run that is a table of poses (CSV, NPZ): sizes, masses, walls, camera");
+  addClockTo(command);
+}
+
+void SceneOfTable::addClockTo(const CommandLine& command) {
   command.addFlag("--shift-time", shiftsTime,
                   "The table's times count from its first row: its clock began at another time");
+}
+
+void SceneOfTable::addShowingTo(const CommandLine& command) {
+  mayShow = true;
+  command.add(
+      "--scene", path,
+      "How a run is shown: a scene whose camera, film, look, light and overlays it takes; of a run that is a "
+      "table of poses (CSV, NPZ) all of its scene");
+  addClockTo(command);
+}
+
+const char* SceneOfTable::useless() const {
+  return path && mayShow ? shiftsTime ? "--shift-time" : nullptr : given();
 }
 
 const char* SceneOfTable::given() const { return path ? "--scene" : shiftsTime ? "--shift-time" : nullptr; }

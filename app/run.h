@@ -49,15 +49,24 @@ struct AuditChoice {
   AuditDepth auditDepth() const;
 };
 
-/// The scene of a run that is given as a table of poses (CSV or NPZ): its boxes' sizes and masses, its walls.
-/// And whether its clock began at another time than the scene's.
+/// The scene of a run that is given as a table of poses (CSV or NPZ): its boxes' sizes and masses, its walls;
+/// where a film is made, also a scene that says how a run is shown. And whether its clock began at another
+/// time than the scene's.
 struct SceneOfTable {
   std::optional<std::filesystem::path> path;
+  bool mayShow = false;     ///< a run is shown as the scene says
   bool shiftsTime = false;  ///< the first row's time is 0 s
 
   void addTo(const CommandLine& command);
+  /// Of a command that shows runs.
+  void addShowingTo(const CommandLine& command);
+  /// The option that was given and is of no use to a run that has its scene; null if none was.
+  const char* useless() const;
   /// The option that was given; null if none was.
   const char* given() const;
+
+ private:
+  void addClockTo(const CommandLine& command);
 };
 
 /// Audits the run; NumericalError, exit code 4, if it breaks a promise of its method, unless told to keep

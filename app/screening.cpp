@@ -15,24 +15,18 @@ Run pictured(Run run, const PictureOptions& options) {
 }  // namespace
 
 Screening::Screening(Run run, const PictureOptions& options)
-    : run_(pictured(std::move(run), options)), filming_(run_.trajectory) {
-  filming_.checkCamera(framesOf({}, frameCount()), rate());
-  if (picture().overlays.any()) {
-    overlays_.emplace(run_.trajectory, picture().overlays, rate().frameTime(1));
-  }
+    : run_(pictured(std::move(run), options)), pictures_(run_.trajectory) {
+  pictures_.first().checkCamera(framesOf({}, frameCount()), rate());
+  pictures_.makeOverlays();
   RenderOptions render;
   render.context = options.contextOptions();
-  filming_.prepare(render);
-  renderer_.emplace(run_.trajectory, render);
+  pictures_.open(render);
 }
 
 Picture Screening::draw(double filmTime, const Orbit& orbit) {
-  filming_.turnCamera(orbit);
-  Picture drawn = filming_.draw(*renderer_, filmTime, picture().shutter, rate());
-  if (overlays_) {
-    filming_.explain(*renderer_, drawn, filmTime, *overlays_);
-  }
-  filming_.turnCamera({});
+  pictures_.turnCamera(orbit);
+  Picture drawn = pictures_.draw(filmTime);
+  pictures_.turnCamera({});
   return drawn;
 }
 

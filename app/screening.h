@@ -1,12 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "picture_options.h"
-#include "render/draw/renderer.h"
-#include "render/film/filming.h"
-#include "render/overlay/overlays.h"
+#include "render/film/film_pictures.h"
 #include "run.h"
 
 namespace careen {
@@ -20,9 +17,9 @@ class Screening {
 
   const Run& run() const { return run_; }
   const FrameRate& rate() const { return picture().rate; }
-  std::int64_t frameCount() const { return rate().frameCount(filming_.duration()); }
+  std::int64_t frameCount() const { return rate().frameCount(pictures_.duration()); }
   /// The film's camera at this time.
-  Camera filmCamera(double filmTime) const { return filming_.camera(filmTime); }
+  Camera filmCamera(double filmTime) const { return pictures_.first().camera(filmTime); }
   int pictureHeight() const { return picture().height; }  ///< [px]
 
   /// Draws the picture at a film time [s], overlays included, with the camera turned by `orbit`.
@@ -32,9 +29,7 @@ class Screening {
   const PictureSettings& picture() const { return run_.trajectory.stage.picture; }
 
   Run run_;
-  Filming filming_;
-  std::optional<Overlays> overlays_;
-  std::optional<Renderer> renderer_;
+  FilmPictures pictures_;
 };
 
 }  // namespace careen

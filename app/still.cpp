@@ -6,10 +6,8 @@
 #include "core/brief.h"
 #include "core/characters.h"
 #include "image/png.h"
-#include "render/draw/renderer.h"
-#include "render/film/filming.h"
+#include "render/film/film_pictures.h"
 #include "render/film/strobe.h"
-#include "render/overlay/overlays.h"
 #include "view/out_of_view.h"
 
 namespace careen {
@@ -26,11 +24,11 @@ std::vector<double> momentsOf(const Still& still) {
   }
 }
 
-void checkMoments(const std::vector<double>& moments, const Filming& filming, const char* option) {
+void checkMoments(const std::vector<double>& moments, double duration, const char* option) {
   for (const double moment : moments) {
-    if (!(moment >= 0 && moment <= filming.duration())) {
+    if (!(moment >= 0 && moment <= duration)) {
       throw InputError(std::string(option) + ": found " + brief(moment) +
-                       " s, expected a moment of the film, from 0 to " + brief(filming.duration()) + " s");
+                       " s, expected a moment of the film, from 0 to " + brief(duration) + " s");
     }
   }
 }
@@ -46,24 +44,13 @@ std::filesystem::path placeOf(const Run& run, const Still& still) {
 
 }  // namespace
 
-ExitCode drawStill(const Run& run, RenderOptions options, const Still& still) {
-  const PictureSettings& asked = run.trajectory.stage.picture;
-  const Filming filming(run.trajectory);
+ExitCode drawStill(const Run& run, const RenderOptions& options, const Still& still) {
+  FilmPictures pictures(run.trajectory, still.beside, still.strobe ? nullptr : still.ghost);
   const std::vector<double> moments = momentsOf(still);
-  checkMoments(moments, filming, still.strobe ? "--strobe" : "--still");
-  filming.prepare(options);
-  Renderer renderer(run.trajectory, options);
-  Picture picture = still.strobe ? filming.drawStrobe(renderer, moments)
-                                 : filming.draw(renderer, moments[0], asked.shutter, asked.rate);
-  if (asked.overlays.any() || (still.ghost != nullptr && !still.strobe)) {
-    Overlays overlays(run.trajectory, asked.overlays, asked.rate.frameTime(1),
-                      still.strobe ? nullptr : still.ghost);
-    if (still.strobe) {
-      filming.explainStrobe(renderer, picture, moments, overlays);
-    } else {
-      filming.explain(renderer, picture, moments[0], overlays);
-    }
-  }
+  checkMoments(moments, pictures.duration(), still.strobe ? "--strobe" : "--still");
+  pictures.makeOverlays();
+  pictures.open(options);
+  const Picture picture = still.strobe ? pictures.drawStrobe(moments) : pictures.draw(moments[0]);
   print(std::cout, outOfView(run.trajectory, moments), run.trajectory);
   const std::filesystem::path path = std::filesystem::absolute(placeOf(run, still)).lexically_normal();
   std::error_code error;

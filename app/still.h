@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "render/draw/renderer.h"
@@ -12,13 +13,14 @@ namespace careen {
 
 /// One picture instead of a film.
 struct Still {
-  std::filesystem::path path;         ///< empty: in out/, named after the scene
-  double moment = 0;                  ///< [s] of the film
-  std::optional<std::string> strobe;  ///< FROM:TO:STEP, instead of one time
-  const Trajectory* ghost = nullptr;  ///< shown as outlines, except in a strobe
+  std::filesystem::path path;                  ///< empty: in out/, named after the scene
+  double moment = 0;                           ///< [s] of the film
+  std::optional<std::string> strobe;           ///< FROM:TO:STEP, instead of one time
+  std::vector<const Trajectory*> beside = {};  ///< other runs, shown beside it, except in a strobe
+  const Trajectory* ghost = nullptr;           ///< shown as outlines, except in a strobe
 };
 
 /// Writes the picture and prints its path.
-ExitCode drawStill(const Run& run, RenderOptions options, const Still& still);
+ExitCode drawStill(const Run& run, const RenderOptions& options, const Still& still);
 
 }  // namespace careen

@@ -80,7 +80,7 @@ void addTruth(const CommandLine& commandLine) {
   const auto options = std::make_shared<TruthOptions>();
   command.add("file", options->source,
               "Scene, trajectory file or table of poses; the default scene if none is named");
-  options->scene.addTo(command);
+  options->scene.addShowingTo(command);
   command.add("-o,--out", options->folder, "Folder (default: out/ and the file's name)");
   command.add("--channels", options->channels,
               "Names with commas between, of: depth, distance, instance, face, normal, coordinates, flow, "

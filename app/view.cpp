@@ -33,7 +33,7 @@ void addView(const CommandLine& commandLine) {
   const auto options = std::make_shared<ViewOptions>();
   command.add("file", options->source,
               "Scene, trajectory file or table of poses; the default scene if none is named");
-  options->scene.addTo(command);
+  options->scene.addShowingTo(command);
   command.add("-o,--out", options->folder, "Folder for stills (default: out)");
   command.addFlag("--paused", options->paused, "Begin at the first frame, paused, in place of playing");
   options->picture.addTo(command);

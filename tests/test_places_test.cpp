@@ -116,6 +116,8 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"stage/color", "data only"},
     {"stage/run_setup", "data only"},
     {"stage/light_part", "names only"},
+    {"stage/scenery", "data only"},
+    {"stage/sound_material", "data only"},
     {"stage/name_set", "tested with its names through overlay"},
     {"stage/stage", "data only"},
     {"stage/triangle_mesh", "data only"},

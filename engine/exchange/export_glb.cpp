@@ -65,7 +65,7 @@ class GlbWriter {
   GlbWriter(const Trajectory& run, const ExportSettings& settings)
       : run_(run),
         settings_(settings),
-        materials_(materialsOf(run.stage.picture.look)),
+        materials_(materialsOf(run.stage)),
         animation_(run, settings.within, buffer_) {}
 
   GlbFile file() {

@@ -57,7 +57,9 @@ FilmManifest fromJson(const nlohmann::json& json) {
   manifest.libraries = json.value("libraries", "");
   manifest.sceneHash = json.at("scene_hash").get<std::string>();
   manifest.stateHash = json.at("state_hash").get<std::string>();
+  manifest.shownAs = json.value("shown_as", "");
   manifest.ghost = json.value("ghost", "");
+  manifest.beside = json.value("beside", "");
   manifest.picture = pictureFrom(json);
   manifest.frameCount = wholeNumber(json.at("frame_count"), "frame_count", 0, kMostFrames);
   if (const std::string frames = json.at("frames").get<std::string>(); !frames.empty()) {
@@ -133,8 +135,14 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"frame_count", manifest.frameCount},
       {"frames", rangesText(manifest.frames)},
   };
+  if (!manifest.shownAs.empty()) {
+    json["shown_as"] = manifest.shownAs;
+  }
   if (!manifest.ghost.empty()) {
     json["ghost"] = manifest.ghost;
+  }
+  if (!manifest.beside.empty()) {
+    json["beside"] = manifest.beside;
   }
   if (!manifest.hashes.empty()) {
     json["hashes"] = hashesOf(manifest);
@@ -148,8 +156,12 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
   };
   std::string text =
       compare("scene", there.sceneHash, asked.sceneHash) + compare("run", there.stateHash, asked.stateHash) +
+      compare("shown as", there.shownAs.empty() ? "its scene" : there.shownAs,
+              asked.shownAs.empty() ? "its scene" : asked.shownAs) +
       compare("ghost", there.ghost.empty() ? "none" : there.ghost,
               asked.ghost.empty() ? "none" : asked.ghost) +
+      compare("beside", there.beside.empty() ? "none" : there.beside,
+              asked.beside.empty() ? "none" : asked.beside) +
       compare("size", sizeText(there.picture), sizeText(asked.picture)) +
       compare("fps", there.picture.rate.text(), asked.picture.rate.text()) +
       compare("look", nameOf(there.picture.look), nameOf(asked.picture.look)) +

@@ -21,7 +21,9 @@ struct FilmManifest {
   std::string libraries;
   std::string sceneHash;
   std::string stateHash;  ///< of the final state of the run
+  std::string shownAs;    ///< hash of the scene whose camera and light it has; empty: the run's own
   std::string ghost;      ///< state hash of the run that is shown as outlines; empty: none
+  std::string beside;     ///< likewise of those that are shown beside it
   PictureSettings picture;
   std::int64_t frameCount = 0;       ///< of the whole film
   std::vector<std::int64_t> frames;  ///< requested so far, sorted

@@ -137,21 +137,32 @@ void checkVideo(const VideoSettings& settings) {
                      std::to_string(settings.rateDenominator) +
                      " frames per second, expected at most 50 for a GIF");
   }
+  if (!settings.sound.empty() && !needsEvenSize(settings)) {
+    throw InputError(settings.path.string() + ": found " + settings.path.extension().string() +
+                     ", which has no sound, expected .mp4, .mkv or .webm for a film with sound");
+  }
 }
 
-Arguments ffmpegCommand(const VideoSettings& settings, const std::filesystem::path& output) {
+Arguments ffmpegCommand(const VideoSettings& settings, const std::filesystem::path& output,
+                        const std::filesystem::path& sound) {
   const std::string codec = codecOf(settings);
   const std::string size = std::to_string(settings.width) + "x" + std::to_string(settings.height);
   const std::string rate =
       std::to_string(settings.rateNumerator) + "/" + std::to_string(settings.rateDenominator);
   // -xerror: a failed write, as on a full disk, otherwise ends with status 0 and a truncated film.
-  Arguments command = {
-      "ffmpeg",     "-nostdin", "-xerror",  "-loglevel", "error",       "-y",
-      "-f",         "rawvideo", "-pix_fmt", "rgb24",     "-video_size", size,
-      "-framerate", rate,       "-i",       "pipe:0",    "-vf",         filterOf(codec, settings)};
+  Arguments command = {"ffmpeg",     "-nostdin", "-xerror",  "-loglevel", "error",       "-y",
+                       "-f",         "rawvideo", "-pix_fmt", "rgb24",     "-video_size", size,
+                       "-framerate", rate,       "-i",       "pipe:0"};
   const auto add = [&command](const Arguments& arguments) {
     command.insert(command.end(), arguments.begin(), arguments.end());
   };
+  if (!sound.empty()) {
+    add({"-i", "file:" + sound.string()});
+    add(settings.path.extension() == ".webm" ? Arguments{"-c:a", "libopus", "-b:a", "160k"}
+                                             : Arguments{"-c:a", "aac", "-b:a", "192k"});
+    add({"-flags:a", "+bitexact"});
+  }
+  add({"-vf", filterOf(codec, settings)});
   add(encoderArguments(codec, settings.quality));
   if (needsEvenSize(settings)) {
     add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range",

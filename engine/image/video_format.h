@@ -19,6 +19,7 @@ struct VideoSettings {
   int height = 0;                   ///< [px]
   std::int64_t rateNumerator = 30;  ///< frames per second, exactly: numerator / denominator
   std::int64_t rateDenominator = 1;
+  std::string sound = {};  ///< its sound, as the bytes of a WAV file; empty: none
 };
 
 /// "draft", "good", "best"; InputError for another.
@@ -33,7 +34,9 @@ void checkVideo(const VideoSettings& settings);
 bool needsEvenSize(const VideoSettings& settings);
 
 /// The command with which ffmpeg reads frames from its standard input, 8-bit RGB, and writes the film to
-/// `output`. Films are tagged as BT.709 with the sRGB transfer function. The same frames give the same bytes.
-std::vector<std::string> ffmpegCommand(const VideoSettings& settings, const std::filesystem::path& output);
+/// `output`, with the sound in the file `sound` if there is one. Films are tagged as BT.709 with the sRGB
+/// transfer function. The same frames give the same bytes.
+std::vector<std::string> ffmpegCommand(const VideoSettings& settings, const std::filesystem::path& output,
+                                       const std::filesystem::path& sound = {});
 
 }  // namespace careen

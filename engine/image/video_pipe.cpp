@@ -75,6 +75,23 @@ VideoPipe::VideoPipe(VideoSettings settings) : settings_(std::move(settings)) {
   }
 }
 
+// As a file of this process that ffmpeg finds, and that is gone with it.
+std::filesystem::path VideoPipe::keepSound() {
+  if (settings_.sound.empty()) {
+    return {};
+  }
+  sound_ = memfd_create("sound", MFD_CLOEXEC);
+  std::string_view left = settings_.sound;
+  while (sound_ >= 0 && !left.empty()) {
+    const ssize_t count = ::write(sound_, left.data(), left.size());
+    if (count < 0 && errno != EINTR) {
+      throw MachineError(std::string("no memory for the sound of a video: ") + std::strerror(errno));
+    }
+    left.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  }
+  return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(sound_);
+}
+
 void VideoPipe::start() {
   // A socket, not a pipe: send() can suppress SIGPIPE when ffmpeg has ended.
   std::array<int, 2> ends = {-1, -1};
@@ -83,8 +100,8 @@ void VideoPipe::start() {
   }
   frames_ = ends[0];
   log_ = memfd_create("ffmpeg", MFD_CLOEXEC);
-  const int error =
-      startProgram(ffmpegCommand(settings_, partial_), {.input = ends[1], .log = log_}, process_);
+  const int error = startProgram(ffmpegCommand(settings_, partial_, keepSound()),
+                                 {.input = ends[1], .log = log_}, process_);
   close(ends[1]);
   if (error != 0) {
     process_ = 0;
@@ -122,6 +139,7 @@ void VideoPipe::finish() {
   }
   cleanup_.reset();
   closeAndForget(log_);
+  closeAndForget(sound_);
   partial_.clear();
 }
 
@@ -147,6 +165,7 @@ void VideoPipe::undo() {
   }
   closeAndForget(frames_);
   closeAndForget(log_);
+  closeAndForget(sound_);
   if (!partial_.empty()) {
     std::error_code ignored;
     std::filesystem::remove(partial_, ignored);

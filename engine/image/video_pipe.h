@@ -33,6 +33,7 @@ class VideoPipe {
 
  private:
   void start();
+  std::filesystem::path keepSound();
   void undo();
   int wait();
   [[noreturn]] void fail(const std::string& what);
@@ -40,6 +41,7 @@ class VideoPipe {
   VideoSettings settings_;
   std::filesystem::path partial_;
   int frames_ = -1;  // socket to ffmpeg's standard input
+  int sound_ = -1;   // file in memory
   int log_ = -1;     // ffmpeg's messages
   int process_ = 0;  // 0: not running
   std::optional<Cleanup> cleanup_;

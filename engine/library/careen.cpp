@@ -23,9 +23,7 @@
 #include "trajectory/trajectory.h"
 #include "trajectory/trajectory_file.h"
 #ifdef CAREEN_RENDER
-#include "render/draw/renderer.h"
-#include "render/film/filming.h"
-#include "render/overlay/overlays.h"
+#include "render/film/film_pictures.h"
 #endif
 
 namespace careen::v1 {
@@ -287,27 +285,19 @@ std::vector<Image> Run::frames(const std::vector<double>& filmTimes,
   return translated("", [&] {
     Trajectory& run = data_->trajectory;
     const OfSize sized(run.stage.picture, size);
-    const PictureSettings& picture = run.stage.picture;
-    const Filming filming(run);
+    FilmPictures pictures(run);
+    const double duration = pictures.duration();
     for (const double time : filmTimes) {
-      if (!(time >= 0 && time <= filming.duration())) {
+      if (!(time >= 0 && time <= duration)) {
         throw Error("found the moment " + std::to_string(time) + " s, expected one of the film, from 0 to " +
-                    std::to_string(filming.duration()) + " s");
+                    std::to_string(duration) + " s");
       }
     }
-    RenderOptions options;
-    filming.prepare(options);
-    Renderer renderer(run, options);
-    std::optional<Overlays> overlays;
-    if (picture.overlays.any()) {
-      overlays.emplace(run, picture.overlays, picture.rate.frameTime(1));
-    }
+    pictures.makeOverlays();
+    pictures.open({});
     std::vector<Image> images;
     for (const double time : filmTimes) {
-      Picture drawn = filming.draw(renderer, time, picture.shutter, picture.rate);
-      if (overlays) {
-        filming.explain(renderer, drawn, time, *overlays);
-      }
+      Picture drawn = pictures.draw(time);
       images.push_back({.width = drawn.width, .height = drawn.height, .rgb = std::move(drawn.rgb)});
     }
     return images;

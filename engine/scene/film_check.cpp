@@ -50,6 +50,32 @@ void checkCamera(const JsonTree& tree, const Scene& scene) {
   }
 }
 
+// The boxes that the camera follows and that it is sharp at.
+void findBoxes(const JsonTree& tree, const BoxNames& boxes, Scene& scene) {
+  const JsonNode* const camera = tree.root().find("camera");
+  if (camera == nullptr) {
+    return;
+  }
+  if (const JsonNode* const follow = camera->find("follow")) {
+    scene.cameraMove.followed = static_cast<std::size_t>(boxes.named(tree, *follow));
+  }
+  const JsonNode* const focus = camera->find("focus");
+  if (focus != nullptr && focus->kind == JsonNode::Kind::kString) {
+    scene.focus->body = static_cast<std::size_t>(boxes.named(tree, *focus));
+  }
+}
+
+void checkTitles(const JsonTree& tree, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.scenery.titles.size(); ++i) {
+    const Title& title = scene.scenery.titles[i];
+    if (!(title.to > title.from)) {
+      failOrder(tree, tree.root().find("titles")->children[i].find("time")->children[1],
+                "titles[" + std::to_string(i) + "].time[1]",
+                "more than its begin, which is " + brief(title.from));
+    }
+  }
+}
+
 void checkTime(const JsonTree& tree, const Scene& scene) {
   const std::vector<TimeKey>& keys = scene.timeMap.keys;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -75,9 +101,11 @@ void checkTime(const JsonTree& tree, const Scene& scene) {
 
 }  // namespace
 
-void checkFilm(const JsonTree& tree, const Scene& scene) {
+void checkShown(const JsonTree& tree, const BoxNames& boxes, Scene& scene) {
+  findBoxes(tree, boxes, scene);
   checkCamera(tree, scene);
   checkTime(tree, scene);
+  checkTitles(tree, scene);
 }
 
 }  // namespace careen

@@ -1,12 +1,14 @@
 #pragma once
 
+#include "scene/box_names.h"
 #include "scene/json_tree.h"
 #include "scene/scene.h"
 
 namespace careen {
 
-/// Checks the values of a scene's camera and film against each other: the camera looks somewhere, keys are
-/// in order, and the film shows no time after the end of the run. InputError at the place in `tree`.
-void checkFilm(const JsonTree& tree, const Scene& scene);
+/// Finds the boxes that a scene's camera names, and checks what the scene says of how it is shown: the camera
+/// looks somewhere, keys are in order, the film shows no time after the end of the run, titles last.
+/// InputError at the place in `tree`.
+void checkShown(const JsonTree& tree, const BoxNames& boxes, Scene& scene);
 
 }  // namespace careen

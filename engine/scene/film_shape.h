@@ -5,9 +5,8 @@
 
 namespace careen {
 
-/// Reads the scene's camera and its movement; checkScene finds the box that it follows.
-void readCamera(const JsonValue& value, Scene& scene);
-/// Reads the film's picture settings and the times it shows.
-void readFilm(const JsonValue& value, Scene& scene);
+/// Reads how a scene is shown: its camera and how that moves, the film's pictures and the times it shows,
+/// look, light, and what is drawn over it. checkShown finds the boxes that are named.
+void readShown(const JsonObject& object, Scene& scene);
 
 }  // namespace careen

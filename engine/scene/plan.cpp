@@ -308,6 +308,26 @@ void requireMethod(const Scene& scene, bool MethodTraits::*trait, const std::str
   }
 }
 
+// Of walls in the order of wallsOf. Lists only if one of them says something.
+void takeSounds(const Scene& scene, Stage& stage) {
+  const auto isSaid = [](const auto& each) { return each.has_value(); };
+  if (std::any_of(scene.boxes.begin(), scene.boxes.end(),
+                  [](const SceneBox& box) { return box.sound.has_value(); })) {
+    for (const SceneBox& box : scene.boxes) {
+      stage.boxSounds.push_back(box.sound.value_or(SoundMaterial()));
+    }
+  }
+  const bool roomSays = scene.room && scene.room->sound;
+  if (!roomSays && std::none_of(scene.wallSounds.begin(), scene.wallSounds.end(), isSaid)) {
+    return;
+  }
+  const std::size_t walls = wallsOf(scene).size() - scene.walls.size();
+  stage.wallSounds.assign(walls, roomSays ? *scene.room->sound : kSoundOfWalls);
+  for (const std::optional<SoundMaterial>& sound : scene.wallSounds) {
+    stage.wallSounds.push_back(sound.value_or(kSoundOfWalls));
+  }
+}
+
 }  // namespace
 
 Plan plan(const Scene& scene) {
@@ -382,12 +402,15 @@ Stage stageOf(const Scene& scene) {
   stage.cameraMove = scene.cameraMove;
   stage.timeMap = scene.timeMap;
   stage.picture = scene.picture;
+  stage.scenery = scene.scenery;
+  stage.focus = scene.focus;
   if (scene.room) {
     stage.room = *scene.room;
   }
   for (const Wall& wall : scene.walls) {
     stage.planes.push_back({.normal = wall.normal, .offset = wall.offset, .course = wall.course});
   }
+  takeSounds(scene, stage);
   for (std::size_t body = 0; body < scene.boxes.size(); ++body) {
     const SceneBox& box = scene.boxes[body];
     stage.colors.push_back(box.color);

@@ -13,6 +13,8 @@
 #include "stage/camera.h"
 #include "stage/color.h"
 #include "stage/picture_settings.h"
+#include "stage/scenery.h"
+#include "stage/sound_material.h"
 #include "stage/stage.h"
 #include "stage/time_map.h"
 #include "stage/triangle_mesh.h"
@@ -21,6 +23,7 @@ namespace careen {
 
 struct Room : RoomShape {
   Material material;
+  std::optional<SoundMaterial> sound;
 };
 
 struct SceneBox {
@@ -40,6 +43,7 @@ struct SceneBox {
   bool fixed = false;
   Course course;  ///< of one that is fixed: how it moves by itself; `pose` is that at the start
   Color color;
+  std::optional<SoundMaterial> sound;
 };
 
 /// A scene file, read and checked. Angles are in radians, except the camera's.
@@ -50,7 +54,8 @@ struct Scene {
   Vec3 gravity = Vec3::Zero();                ///< [m/s²] at the start
   std::vector<GravityChange> gravityChanges;  ///< as in World
   std::optional<Room> room;
-  std::vector<Wall> walls;  ///< the explicit walls; the room's come from `room`
+  std::vector<Wall> walls;                               ///< the explicit walls; the room's come from `room`
+  std::vector<std::optional<SoundMaterial>> wallSounds;  ///< of the explicit walls
   std::vector<SceneBox> boxes;
   std::vector<Spring> springs;
   std::optional<Control> control;          ///< of joints, by their index here
@@ -60,7 +65,9 @@ struct Scene {
   std::optional<Camera> camera;  ///< absent: a camera that sees the whole motion is chosen
   CameraMove cameraMove;         ///< empty if there is no camera
   TimeMap timeMap;
+  std::optional<Focus> focus;  ///< absent: all is sharp
   PictureSettings picture;
+  Scenery scenery;
 };
 
 /// Name of a wall of the room: "room-x" for side 0.

@@ -280,14 +280,6 @@ void connectSprings(const JsonTree& tree, const BoxNames& boxes, Scene& scene) {
   }
 }
 
-void findFollowed(const JsonTree& tree, const BoxNames& boxes, Scene& scene) {
-  const JsonNode* const camera = tree.root().find("camera");
-  const JsonNode* const follow = camera == nullptr ? nullptr : camera->find("follow");
-  if (follow != nullptr) {
-    scene.cameraMove.followed = static_cast<std::size_t>(boxes.named(tree, *follow));
-  }
-}
-
 void checkStart(const JsonTree& tree, const Scene& scene) {
   const std::vector<Wall> walls = wallsOf(scene);
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
@@ -332,8 +324,7 @@ void checkScene(const JsonTree& tree, Scene& scene, Starts starts) {
   connectSprings(tree, boxes, scene);
   connectJoints(tree, boxes, scene);
   connectMotors(tree, scene);
-  findFollowed(tree, boxes, scene);
-  checkFilm(tree, scene);
+  checkShown(tree, boxes, scene);
   if (starts == Starts::kApart) {
     checkStart(tree, scene);
     checkOverlap(tree, scene);

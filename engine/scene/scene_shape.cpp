@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 
 #include "physics/world/method.h"
+#include "scene/color_shape.h"
 #include "scene/control_shape.h"
 #include "scene/film_shape.h"
 #include "scene/joint_shape.h"
 #include "scene/json_shape.h"
 #include "scene/motion_shape.h"
 #include "scene/parts_shape.h"
+#include "scene/sound_shape.h"
 #include "scene/union_moments.h"
 
 namespace careen {
@@ -26,27 +27,13 @@ Material readMaterial(const JsonObject& object) {
           .friction = object.number("friction", nonNegativeNumber(), 0)};
 }
 
-Color readColor(const JsonValue& value) {
-  const std::string expected = "a colour \"#rrggbb\"";
-  const std::string& text = value.string(expected);
-  std::array<std::uint8_t, 3> channels{};
-  bool good = text.size() == 7 && text[0] == '#';
-  for (std::size_t i = 0; good && i < channels.size(); ++i) {
-    const char* const digits = text.data() + 1 + 2 * i;
-    good = std::from_chars(digits, digits + 2, channels[i], 16).ptr == digits + 2;
-  }
-  if (!good) {
-    value.fail(expected);
-  }
-  return {.red = channels[0], .green = channels[1], .blue = channels[2]};
-}
-
 Room readRoom(const JsonValue& value) {
-  const JsonObject object = value.object({"min", "max", "open", "restitution", "friction"});
+  const JsonObject object = value.object({"min", "max", "open", "restitution", "friction", "material"});
   Room room;
   room.min = object.require("min").vector(anyNumber("m"));
   room.max = object.require("max").vector(anyNumber("m"));
   room.material = readMaterial(object);
+  room.sound = readSound(object);
   if (const std::optional<JsonValue> open = object.find("open")) {
     const std::vector<std::string_view> sides(kRoomSides.begin(), kRoomSides.end());
     for (const JsonValue& side : open->elements("an array of sides such as [\"+z\"]")) {
@@ -66,9 +53,9 @@ SurfaceMotion readSurface(const JsonObject& object, const Vec3& axis, const Vec3
   return {.velocity = object.vector("surface_velocity", anyNumber("m/s")) - spin.cross(point), .spin = spin};
 }
 
-Wall readWall(const JsonValue& value, std::size_t index) {
-  const JsonObject object = value.object(
-      {"name", "point", "normal", "restitution", "friction", "surface_velocity", "surface_spin", "motion"});
+Wall readWall(const JsonValue& value, std::size_t index, Scene& scene) {
+  const JsonObject object = value.object({"name", "point", "normal", "restitution", "friction",
+                                          "surface_velocity", "surface_spin", "material", "motion"});
   Wall wall{.name = object.name("wall-" + std::to_string(index)),
             .normal = object.require("normal").direction(),
             .material = readMaterial(object)};
@@ -84,6 +71,7 @@ Wall readWall(const JsonValue& value, std::size_t index) {
     wall.offset = planeAt(wall, 0).offset;
   }
   wall.material.surface = readSurface(object, wall.normal, home.position);
+  scene.wallSounds.push_back(readSound(object));
   return wall;
 }
 
@@ -141,6 +129,7 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
                                           "friction",
                                           "fixed",
                                           "color",
+                                          "material",
                                           "surface_velocity",
                                           "surface_spin",
                                           "motion"});
@@ -201,6 +190,7 @@ SceneBox readBox(const JsonValue& value, std::size_t index) {
   } else if (!box.fixed) {
     box.color = kPalette[index % kPalette.size()];
   }
+  box.sound = readSound(object);
   return box;
 }
 
@@ -231,21 +221,6 @@ Drag readDrag(const JsonValue& value) {
   const JsonObject object = value.object({"linear", "angular"});
   return {.linear = object.number("linear", nonNegativeNumber("N s/m"), 0),
           .angular = object.number("angular", nonNegativeNumber("N m s"), 0)};
-}
-
-// `one`: what a name stands for; `example`: a name.
-template <class Enum, const auto& kNames>
-NameSet<Enum, kNames> readNames(const JsonValue& value, const std::string& one, const std::string& example) {
-  NameSet<Enum, kNames> set;
-  const std::vector<std::string_view> names(kNames.begin(), kNames.end());
-  for (const JsonValue& each : value.elements("an array of " + one + "s such as [\"" + example + "\"]")) {
-    const auto named = static_cast<Enum>(each.word(names, one));
-    if (set.has(named)) {
-      each.fail("each " + one + " once");
-    }
-    set.add(named);
-  }
-  return set;
 }
 
 // Read first: another version may have other keys.
@@ -319,17 +294,21 @@ void readGravity(const JsonObject& scene, Scene& into) {
   into.gravity = into.gravityChanges.front().gravity;
 }
 
-}  // namespace
-
-Scene readShape(const JsonTree& tree) {
+JsonObject sceneObject(const JsonTree& tree) {
   const JsonValue root(tree, tree.root(), "");
   if (root.is(Kind::kObject)) {
     readVersion(tree, root);
   }
-  const JsonObject object = root.object({"careen", "name",    "duration",  "gravity",      "room",    "walls",
-                                         "boxes",  "springs", "joints",    "pass_through", "control", "drag",
-                                         "method", "dt",      "tolerance", "crowds",       "camera",  "film",
-                                         "look",   "light",   "overlays",  "$schema"});
+  return root.object({"careen",     "name",   "duration",     "gravity", "room",   "walls",  "boxes",
+                      "springs",    "joints", "pass_through", "control", "drag",   "method", "dt",
+                      "tolerance",  "crowds", "camera",       "film",    "look",   "light",  "overlays",
+                      "background", "marks",  "gloss",        "titles",  "$schema"});
+}
+
+}  // namespace
+
+Scene readShape(const JsonTree& tree) {
+  const JsonObject object = sceneObject(tree);
   Scene scene;
   scene.text = tree.text();
   if (const std::optional<JsonValue> name = object.find("name")) {
@@ -341,7 +320,9 @@ Scene readShape(const JsonTree& tree) {
   scene.settings.duration = object.require("duration").number(positiveNumber("s"));
   readGravity(object, scene);
   scene.room = readOptional<Room>(object.find("room"), readRoom);
-  scene.walls = readList<Wall>(object.find("walls"), readWall);
+  scene.walls = readList<Wall>(object.find("walls"), [&scene](const JsonValue& value, std::size_t index) {
+    return readWall(value, index, scene);
+  });
   scene.boxes = readList<SceneBox>(object.require("boxes"), readBox);
   if (scene.boxes.empty()) {
     object.require("boxes").fail("at least one box");
@@ -366,21 +347,13 @@ Scene readShape(const JsonTree& tree) {
   if (const std::optional<JsonValue> crowds = object.find("crowds")) {
     scene.settings.crowds = readCrowds(*crowds);
   }
-  if (const std::optional<JsonValue> camera = object.find("camera")) {
-    readCamera(*camera, scene);
-  }
-  if (const std::optional<JsonValue> film = object.find("film")) {
-    readFilm(*film, scene);
-  }
-  if (const std::optional<JsonValue> look = object.find("look")) {
-    scene.picture.look = static_cast<Look>(look->word({kLooks.begin(), kLooks.end()}, "look"));
-  }
-  if (const std::optional<JsonValue> overlays = object.find("overlays")) {
-    scene.picture.overlays = readNames<Overlay, kOverlayNames>(*overlays, "overlay", "energy");
-  }
-  if (const std::optional<JsonValue> light = object.find("light")) {
-    scene.picture.light = readNames<LightPart, kLightPartNames>(*light, "light part", "shadows");
-  }
+  readShown(object, scene);
+  return scene;
+}
+
+Scene readShownShape(const JsonTree& tree) {
+  Scene scene;
+  readShown(sceneObject(tree), scene);
   return scene;
 }
 

@@ -10,5 +10,8 @@ namespace careen {
 /// bodies that springs and joints name: their ends hold places only, those of joints in the world. Directions
 /// and quaternions are normalised here.
 Scene readShape(const JsonTree& tree);
+/// Of a scene, or of one that lacks all else, how it is shown: camera, film, look, light and what is drawn
+/// over it.
+Scene readShownShape(const JsonTree& tree);
 
 }  // namespace careen

@@ -22,6 +22,7 @@ class NameSet {
   }
 
   void add(Enum value) { has_.at(static_cast<std::size_t>(value)) = true; }
+  void remove(Enum value) { has_.at(static_cast<std::size_t>(value)) = false; }
   bool has(Enum value) const { return has_.at(static_cast<std::size_t>(value)); }
   bool any() const {
     return std::any_of(has_.begin(), has_.end(), [](bool has) { return has; });

@@ -12,6 +12,8 @@
 #include "stage/camera.h"
 #include "stage/color.h"
 #include "stage/picture_settings.h"
+#include "stage/scenery.h"
+#include "stage/sound_material.h"
 #include "stage/time_map.h"
 #include "stage/triangle_mesh.h"
 
@@ -57,6 +59,11 @@ struct Stage {
   CameraMove cameraMove;         ///< empty if there is no camera
   TimeMap timeMap;
   PictureSettings picture;
+  Scenery scenery;
+  std::optional<Focus> focus;             ///< absent: all is sharp
+  std::vector<SoundMaterial> boxSounds;   ///< of the boxes; empty: all are of wood
+  std::vector<SoundMaterial> wallSounds;  ///< of the walls, those of the room first; empty: all are of stone
+  std::string shownAs;  ///< hash of the scene whose camera and light these are; empty: the run's own
 
   /// Whether a wall moves by itself.
   bool hasMovingPlanes() const {

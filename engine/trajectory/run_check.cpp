@@ -357,6 +357,27 @@ void checkParts(const std::vector<DrawnPart>& parts, std::size_t bodies) {
   }
 }
 
+void checkFocus(const Focus& focus, std::size_t bodies) {
+  require(isPositive(focus.fStop) && (!focus.distance || isPositive(*focus.distance)) &&
+              (!focus.body || *focus.body < bodies) && focus.samples >= 1 &&
+              focus.samples <= kMostShutterSamples,
+          "an invalid lens or nothing that is sharp", "a focus");
+}
+
+void checkScenery(const Scenery& scenery) {
+  require(!scenery.towardsLight || isUnit(scenery.towardsLight->norm()), "no direction", "a light");
+  require(!scenery.lightDegrees ||
+              (isNotNegative(*scenery.lightDegrees) && *scenery.lightDegrees <= kWidestLight),
+          "an invalid size", "a light");
+  require(!scenery.gloss || (isNotNegative(*scenery.gloss) && *scenery.gloss <= 1), "an invalid gloss",
+          "a stage");
+  require(std::all_of(scenery.titles.begin(), scenery.titles.end(),
+                      [](const Title& title) {
+                        return isNotNegative(title.from) && std::isfinite(title.to) && title.to > title.from;
+                      }),
+          "an invalid time", "a title");
+}
+
 void checkStage(const Stage& stage, std::size_t bodies) {
   checkParts(stage.parts, bodies);
   if (stage.colors.size() != bodies) {
@@ -374,6 +395,10 @@ void checkStage(const Stage& stage, std::size_t bodies) {
   checkCamera(stage, bodies);
   checkTimeMap(stage.timeMap);
   checkPicture(stage.picture);
+  checkScenery(stage.scenery);
+  if (stage.focus) {
+    checkFocus(*stage.focus, bodies);
+  }
 }
 
 }  // namespace

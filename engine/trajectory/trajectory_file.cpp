@@ -13,6 +13,7 @@
 #include "trajectory/joint_format.h"
 #include "trajectory/packed_steps.h"
 #include "trajectory/run_check.h"
+#include "trajectory/scenery_format.h"
 #include "trajectory/trajectory_format.h"
 
 namespace careen {
@@ -20,7 +21,7 @@ namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kFileMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 15;
+constexpr std::uint64_t kVersion = 16;
 constexpr std::uint64_t kVersionWithoutCrowds = 4;  // the oldest that is read
 constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
@@ -31,7 +32,8 @@ constexpr std::uint64_t kVersionWithoutGrips = 10;
 constexpr std::uint64_t kVersionOfOneGravity = 11;  // and of surfaces that are still
 constexpr std::uint64_t kVersionOfOneBox = 12;      // for each body
 constexpr std::uint64_t kVersionWithoutCourses = 13;
-constexpr std::uint64_t kVersionOfStillWalls = 14;
+constexpr std::uint64_t kVersionWithoutScenery = 14;
+constexpr std::uint64_t kVersionOfStillWalls = 15;
 
 // A run since format version 9.
 template <class Archive>
@@ -103,6 +105,9 @@ void visitRecord(Archive& archive, Visited<Archive, Trajectory> run, std::uint64
     for (auto& body : run.world.bodies) {
       visitAll(archive, body.course);
     }
+  }
+  if (version > kVersionWithoutScenery) {
+    visitScenery(archive, run.stage);
   }
   if (version > kVersionOfStillWalls) {
     for (auto& wall : run.world.walls) {

@@ -73,8 +73,8 @@ double pixelAngle(const Camera& camera, int height) { return 2 * slopeOfView(cam
 
 View viewOf(const Camera& camera, const Extent& extent, double aspect) {
   View view;
-  view.eye = camera.eye;
   view.worldFromCamera = lookAt(camera.eye, camera.target, camera.up);
+  view.eye = camera.eye + view.worldFromCamera.leftCols<2>() * camera.beside;
   // Near and far planes for a scene of this size, with a depth resolution of 1e-4 m in 10 m. The near plane
   // is closer for a near target in a large room.
   const double reach = (camera.eye - extent.centre()).norm() + extent.radius();
@@ -82,6 +82,12 @@ View viewOf(const Camera& camera, const Extent& extent, double aspect) {
   Mat4 cameraFromOffset = Mat4::Identity();
   cameraFromOffset.topLeftCorner<3, 3>() = view.worldFromCamera.transpose();
   view.clipFromOffset = perspective(camera.fovDegrees, aspect, near, 50 * reach) * cameraFromOffset;
+  if (!camera.beside.isZero(0)) {
+    Mat4 sheared = Mat4::Identity();
+    sheared.block<2, 1>(0, 2) = -camera.beside / camera.sharpAt;
+    view.clipFromOffset =
+        perspective(camera.fovDegrees, aspect, near, 50 * reach) * sheared * cameraFromOffset;
+  }
   return view;
 }
 

@@ -81,7 +81,7 @@ double slopeAt(double slopeBefore, double slopeAfter, double before, double afte
 
 }  // namespace
 
-CameraKey between(std::span<const CameraKey> keys, double time) {
+CameraKey between(std::span<const CameraKey> keys, double time, Easing easing) {
   const auto next = std::upper_bound(keys.begin(), keys.end(), time,
                                      [](double t, const CameraKey& key) { return t < key.time; });
   if (next == keys.begin()) {
@@ -92,6 +92,9 @@ CameraKey between(std::span<const CameraKey> keys, double time) {
   }
   const auto to = static_cast<std::size_t>(next - keys.begin());
   const std::size_t from = to - 1;
+  if (easing == Easing::kCut) {
+    return keys[from];
+  }
   const auto slope = [&](std::size_t key, std::size_t coordinate) {
     const auto line = [&](std::size_t a) {
       return (coordinatesOf(keys[a + 1])[coordinate] - coordinatesOf(keys[a])[coordinate]) /
@@ -104,12 +107,15 @@ CameraKey between(std::span<const CameraKey> keys, double time) {
   };
   const double step = keys[to].time - keys[from].time;
   const double u = (time - keys[from].time) / step;
-  const double rise = u * u * (3 - 2 * u);
+  const double rise = easing == Easing::kLinear ? u : u * u * (3 - 2 * u);
   const Coordinates a = coordinatesOf(keys[from]);
   const Coordinates b = coordinatesOf(keys[to]);
   Coordinates at{};
   for (std::size_t i = 0; i < kCoordinates; ++i) {
-    at[i] = a[i] + rise * (b[i] - a[i]) + step * u * (1 - u) * ((1 - u) * slope(from, i) - u * slope(to, i));
+    at[i] = a[i] + rise * (b[i] - a[i]);
+    if (easing == Easing::kSmooth) {
+      at[i] += step * u * (1 - u) * ((1 - u) * slope(from, i) - u * slope(to, i));
+    }
   }
   return {.time = time,
           .eye = Vec3(at[0], at[1], at[2]),
@@ -192,7 +198,7 @@ Vec3 CameraPath::followedSmoothly(double filmTime) const {
 Camera CameraPath::at(double filmTime) const {
   Camera camera = start_;
   if (!move_.keys.empty()) {
-    const CameraKey key = between(move_.keys, filmTime);
+    const CameraKey key = between(move_.keys, filmTime, move_.easing);
     camera.eye = key.eye;
     camera.target = key.target;
     camera.fovDegrees = key.fovDegrees;

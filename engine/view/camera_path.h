@@ -42,8 +42,8 @@ Camera cameraThatFrames(const Trajectory& run, const TimeMap& clock, double aspe
 /// Monotone piecewise cubic interpolation of every coordinate of eye and target and the angle (F. N. Fritsch,
 /// J. Butland, "A method for constructing local monotone piecewise cubic interpolants", 1984): the velocity
 /// is continuous, extrema occur only at keys, without overshoot, and values equal in two keys stay constant
-/// between them. Constant before the first key and after the last, with zero velocity at both. `keys` must be
-/// sorted and not empty.
-CameraKey between(std::span<const CameraKey> keys, double time);
+/// between them. Or as the easing has it. Constant before the first key and after the last, with zero
+/// velocity at both. `keys` must be sorted and not empty.
+CameraKey between(std::span<const CameraKey> keys, double time, Easing easing = Easing::kSmooth);
 
 }  // namespace careen

@@ -6,6 +6,8 @@
 namespace careen {
 namespace {
 
+constexpr double kSmoothest = 0.9;  // [1] of the range of roughness: of a mirror, no highlight is seen
+
 // IEC 61966-2-1.
 double linear(std::uint8_t channel) {
   const double value = channel / 255.0;
@@ -52,6 +54,15 @@ Materials materialsOf(Look look) {
               .slab = Vec3(0.60, 0.60, 0.60)};
   }
   return {};
+}
+
+Materials materialsOf(const Stage& stage) {
+  Materials materials = materialsOf(stage.picture.look);
+  materials.marks = stage.scenery.marks.value_or(materials.marks);
+  if (stage.scenery.gloss) {
+    materials.boxRoughness = 1 - kSmoothest * *stage.scenery.gloss;
+  }
+  return materials;
 }
 
 }  // namespace careen

@@ -3,6 +3,7 @@
 #include "core/math/linear_algebra.h"
 #include "stage/color.h"
 #include "stage/picture_settings.h"
+#include "stage/stage.h"
 
 namespace careen {
 
@@ -34,5 +35,7 @@ struct Materials {
 };
 
 Materials materialsOf(Look look);
+/// The same with what the scene says of them.
+Materials materialsOf(const Stage& stage);
 
 }  // namespace careen

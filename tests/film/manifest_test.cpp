@@ -123,6 +123,7 @@ TEST(Manifest, ofAnotherFilmDiffersInWhatItSays) {
       {"shutter 180:8 there, none now", [](FilmManifest& film) { film.picture.shutter = {}; }},
       {"overlays time,energy there, time now",
        [](FilmManifest& film) { film.picture.overlays = OverlaySet::named("time"); }},
+      {"shown as its scene there, 89ab now", [](FilmManifest& film) { film.shownAs = "89ab"; }},
       {"frames in all 240 there, 241 now", [](FilmManifest& film) { film.frameCount = 241; }},
       {"program careen 1.2.3 there, careen 2 now", [](FilmManifest& film) { film.program = "careen 2"; }},
       {"renderer llvmpipe there, other now", [](FilmManifest& film) { film.renderer = "other"; }},

@@ -64,6 +64,24 @@ TEST(VideoFormat, gifIsNoFasterThanPlayersPlayIt) {
   EXPECT_EQ(errorOf(settings), "");
 }
 
+TEST(VideoFormat, soundGoesWhereThereIsAPlaceForIt) {
+  VideoSettings settings = settingsOf("film.mp4");
+  settings.sound = "RIFF";
+  const auto commandOf = [](const VideoSettings& video) { return ffmpegCommand(video, "out", "/tmp/sound"); };
+  const auto hasWord = [](const std::vector<std::string>& command, const char* word) {
+    return std::find(command.begin(), command.end(), word) != command.end();
+  };
+  EXPECT_EQ(errorOf(settings), "");
+  EXPECT_TRUE(hasWord(commandOf(settings), "aac"));
+  EXPECT_TRUE(hasWord(commandOf(settings), "file:/tmp/sound"));
+  EXPECT_FALSE(has(settings, "aac")) << "there is no file of it";
+  settings.path = "film.webm";
+  EXPECT_TRUE(hasWord(commandOf(settings), "libopus"));
+  settings.path = "film.webp";
+  EXPECT_EQ(errorOf(settings),
+            "film.webp: found .webp, which has no sound, expected .mp4, .mkv or .webm for a film with sound");
+}
+
 // Else gradients in the dark show blocks: on the walls of careen.json, edges of 8 px are 1.7 times as strong
 // as what is between them without the strength, and 1.08 times with it.
 TEST(VideoFormat, flatAndDarkPartsGetTheirBits) {

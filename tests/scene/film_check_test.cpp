@@ -29,6 +29,15 @@ const std::vector<BadPiece> kBadFilms = {
      "found 2.75 for film.time[2][1], expected a scene time within the duration, which is 2.5"},
 };
 
+TEST(FilmCheck, theLensIsSharpAtABoxThatThereIsAndTitlesLast) {
+  EXPECT_EQ(parseScene(kShown, "f").focus->body, 0U);
+  EXPECT_EQ(
+      inputErrorOf([] { parseScene(sceneBut(kShown, R"("focus": "crate")", R"("focus": "crane")"), "f"); }),
+      "f:9:61: found no box of the name \"crane\", expected \"crate\"");
+  EXPECT_EQ(inputErrorOf([] { parseScene(sceneBut(kShown, "[0.5, 1]", "[0.5, 0.5]"), "f"); }),
+            "f:16:31: found 0.5 for titles[1].time[1], expected more than its begin, which is 0.5");
+}
+
 TEST(FilmCheck, badScenesAreToldWhereAndWhy) {
   for (const BadPiece& bad : kBadFilms) {
     const MarkedText marked(everyKeyBut(bad.piece, bad.instead));

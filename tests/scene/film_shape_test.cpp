@@ -16,6 +16,29 @@ std::string filmShapeErrorOf(const std::string& text) {
   return inputErrorOf([&text] { readShape(JsonTree(text, "f")); });
 }
 
+const std::vector<BadPiece> kBadShown = {
+    {R"("linear")", R"(@"slow")", R"(found the unknown easing "slow", expected one of smooth, linear, cut)"},
+    {"0.125, \"focus\"", "@0, \"focus\"", "found 0 for camera.f_stop, expected a number above 0"},
+    {R"("f_stop": 0.125, )", "@", "found no f_stop in camera, expected that key"},
+    {R"("focus": "crate")", R"("focus": @-1)",
+     "found -1 for camera.focus, expected a distance above 0, or the name of a box [m]"},
+    {R"("focus_samples": 5)", R"("focus_samples": @257)",
+     "found 257 for camera.focus_samples, expected a whole number from 1 to 256"},
+    {R"("shadows")", R"(@"shades")",
+     R"(found the unknown light part "shades", expected one of shadows, occlusion, bounce)"},
+    {"[0, 3, -4]", "@[0, 0, 0]", "found a zero vector for light.direction, expected a direction"},
+    {R"("size_deg": 8)", R"("size_deg": @61)",
+     "found 61 for light.size_deg, expected a number from 0 to 60 [deg]"},
+    {R"("#ffe0c0")", R"(@"#ffe0c")", R"(found "#ffe0c" for light.color, expected a colour "#rrggbb")"},
+    {R"(["#405060", "black"])", R"(@["black"])",
+     "found an array of 1 for light.ambient, expected a colour or [above, below]"},
+    {R"("ivory")", "@1", R"(found 1 for background, expected a colour "#rrggbb" or its name)"},
+    {R"("marks": false)", R"("marks": @0)", "found 0 for marks, expected true or false"},
+    {R"("gloss": 0.75)", R"("gloss": @1.5)", "found 1.5 for gloss, expected a number from 0 to 1"},
+    {R"("time": [0.5, 1], )", "@", "found no time in titles[1], expected that key"},
+    {R"("top")", R"(@"left")", R"(found the unknown place "left", expected one of top, middle, bottom)"},
+};
+
 const std::vector<BadPiece> kBadFilmValues = {
     {R"({ "eye": [6, -8, 4], )", "@{ ", "found no eye in camera, expected that key"},
     {R"("up": [0, 0, 4])", R"("up": @[0, 0, 0])", "found a zero vector for camera.up, expected a direction"},
@@ -53,6 +76,38 @@ const std::vector<BadPiece> kBadFilmValues = {
     {R"("shutter_samples": 4)", R"("shutter_samples": @257)",
      "found 257 for film.shutter_samples, expected a whole number from 1 to 256"},
 };
+
+TEST(FilmShape, badLightsLensesAndTitlesAreToldWhereAndWhy) {
+  for (const BadPiece& bad : kBadShown) {
+    const std::string marked = sceneBut(kShown, bad.piece, bad.instead);
+    const std::string error = filmShapeErrorOf(std::string(marked).erase(marked.find('@'), 1));
+    EXPECT_NE(error.find(bad.message), std::string::npos) << error;
+  }
+}
+
+TEST(FilmShape, readsLightLensAndTitles) {
+  const Scene scene = readShape(JsonTree(kShown, "f"));
+  const Scenery& scenery = scene.scenery;
+  EXPECT_LT((*scenery.towardsLight - Vec3(0, -0.6, 0.8)).norm(), 1e-15);
+  EXPECT_EQ(scenery.lightDegrees, 8);
+  EXPECT_EQ(scenery.lightColor->blue, 0xc0);
+  EXPECT_EQ(scenery.ambient->above.red, 0x40);
+  EXPECT_EQ(scenery.ambient->below.red, 0);
+  EXPECT_EQ(scenery.background->above.blue, 0xf0);
+  EXPECT_EQ(scenery.background->below.blue, 0xf0);
+  EXPECT_EQ(scenery.marks, false);
+  EXPECT_EQ(scenery.gloss, 0.75);
+  ASSERT_EQ(scenery.titles.size(), 2U);
+  EXPECT_EQ(scenery.titles[0].text, "A box careens\noff a wall");
+  EXPECT_EQ(scenery.titles[0].place, TitlePlace::kTop);
+  EXPECT_EQ(scenery.titles[1].place, TitlePlace::kBottom);
+  EXPECT_EQ(scenery.titles[1].to, 1);
+  EXPECT_EQ(scene.picture.light.text(), "shadows");
+  EXPECT_EQ(scene.cameraMove.easing, Easing::kLinear);
+  EXPECT_EQ(scene.focus->fStop, 0.125);
+  EXPECT_FALSE(scene.focus->distance);
+  EXPECT_EQ(scene.focus->samples, 5);
+}
 
 TEST(FilmShape, badValuesAreToldWhereAndWhy) {
   for (const BadPiece& bad : kBadFilmValues) {

@@ -22,6 +22,7 @@ inline const std::map<std::string, Names> kMayInclude = {
     {"study", {"scene", "exchange", "trajectory", "audit", "physics", "core"}},
     {"compare", {"image", "trajectory", "core"}},
     {"view", {"trajectory", "physics", "stage", "core"}},
+    {"sound", {"view", "trajectory", "physics", "stage", "core"}},
     {"truth", {"view", "film", "trajectory", "stage", "physics", "core"}},
     {"sweep", {"scene", "trajectory", "audit", "question", "physics", "stage", "core"}},
     {"exchange", {"scene", "view", "trajectory", "physics", "stage", "core"}},

@@ -74,6 +74,25 @@ inline const std::string kJoints = R"({
     { "joint": "knee", "target": 0.3, "kd": 1 } ] }
 })";
 
+/// A scene with all that may be said of how it is shown and that the first one leaves out.
+inline const std::string kShown = R"({
+  "careen": 1,
+  "duration": 2,
+  "boxes": [ { "name": "crate", "half_extents": [0.5, 0.25, 0.125], "mass": 2, "color": "skyblue", "material": "metal" } ],
+  "room": { "min": [-3, -3, -3], "max": [3, 3, 3], "material": { "modulus": 1e9, "density": 500, "damping": 0.125 } },
+  "walls": [ { "name": "ramp", "point": [0, 0, -2], "normal": [0, 1, 1], "material": "plastic" } ],
+  "camera": { "keys": [ { "time": 0, "eye": [6, -8, 4], "target": [0, 0, 1] },
+                        { "time": 2, "eye": [6, -4, 4], "target": [0, 0, 1] } ],
+              "easing": "linear", "f_stop": 0.125, "focus": "crate", "focus_samples": 5 },
+  "light": { "parts": ["shadows"], "direction": [0, 3, -4], "size_deg": 8, "color": "#ffe0c0",
+             "ambient": ["#405060", "black"] },
+  "background": "ivory",
+  "marks": false,
+  "gloss": 0.75,
+  "titles": [ { "time": [0, 1.5], "text": "A box careens\noff a wall", "place": "top" },
+              { "time": [0.5, 1], "text": "Part 4" } ]
+})";
+
 /// A scene with one piece of text, which must occur exactly once, replaced by another.
 inline std::string sceneBut(const std::string& scene, const std::string& piece, const std::string& instead) {
   const std::size_t at = scene.find(piece);

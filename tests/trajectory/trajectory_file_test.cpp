@@ -209,21 +209,32 @@ TEST(TrajectoryFile, bringsBackARunOfManyPieces) {
   EXPECT_EQ(encodeTrajectory(back), bytes);
 }
 
-// Before the length and the hash of the last state, format version 12: without two lists for each body, its
-// boxes and the parts of its course; version 13: without the latter.
+// Before the length and the hash of the last state, what format version 14 has not: how the camera goes from
+// key to key, by name, eight things that a scene need not say of how it is shown, and lists of titles and of
+// the materials of boxes and walls.
+constexpr std::size_t kSinceVersion14 = 8 + 6 + 8 + 3 * 8;
+
+// The run in bytes as an earlier version has it, which lacks so many more, all of them 0.
+std::string withoutLast(const Trajectory& run, std::uint64_t version, std::size_t more) {
+  std::string record = recordOf(encodeTrajectory(run));
+  const std::size_t end = record.size() - 8 - run.stateHash().size() - kSinceVersion14;
+  EXPECT_EQ(record.substr(end, 14), inBytes(6) + "smooth");
+  EXPECT_EQ(record.substr(end + 14, kSinceVersion14 - 14), std::string(kSinceVersion14 - 14, '\0'));
+  EXPECT_EQ(record.substr(end - more, more), std::string(more, '\0'));
+  record.erase(end - more, more + kSinceVersion14);
+  return withRightChecksum("careen\r\n" + inBytes(version) + pieceOf(record) + "checksum");
+}
+
+// Format version 12: without two lists for each body, its boxes and the parts of its course; version 13:
+// without the latter.
 std::size_t sinceVersion13(const Trajectory& run) { return 8 * run.world.bodies.size(); }
 std::size_t sinceVersion12(const Trajectory& run) { return 16 * run.world.bodies.size(); }
 
-TEST(TrajectoryFile, readsWhatVersions12And13Wrote) {
+TEST(TrajectoryFile, readsWhatVersions12To14Wrote) {
   const Trajectory run = driftAndReturn();
-  for (const auto& [version, more] :
-       {std::pair(12, sinceVersion12(run)), std::pair(13, sinceVersion13(run))}) {
-    std::string record = recordOf(encodeTrajectory(run));
-    const std::size_t end = record.size() - 8 - run.stateHash().size();
-    EXPECT_EQ(record.substr(end - more, more), std::string(more, '\0'));
-    record.erase(end - more, more);
-    const std::string bytes = withRightChecksum("careen\r\n" + inBytes(static_cast<std::uint64_t>(version)) +
-                                                pieceOf(record) + "checksum");
+  for (const auto& [version, more] : {std::pair(12, sinceVersion12(run)), std::pair(13, sinceVersion13(run)),
+                                      std::pair(14, std::size_t{0})}) {
+    const std::string bytes = withoutLast(run, static_cast<std::uint64_t>(version), more);
     EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
   }
 }
@@ -276,12 +287,7 @@ std::size_t sinceVersion11(const Trajectory& run) {
 
 TEST(TrajectoryFile, readsWhatVersion11Wrote) {
   const Trajectory run = driftAndReturn();
-  std::string record = recordOf(encodeTrajectory(run));
-  const std::size_t more = sinceVersion11(run);
-  const std::size_t end = record.size() - 8 - run.stateHash().size();
-  EXPECT_EQ(record.substr(end - more, more), std::string(more, '\0'));
-  record.erase(end - more, more);
-  const std::string bytes = withRightChecksum("careen\r\n" + inBytes(11) + pieceOf(record) + "checksum");
+  const std::string bytes = withoutLast(run, 11, sinceVersion11(run));
   EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
 }
 
@@ -289,24 +295,14 @@ TEST(TrajectoryFile, readsWhatVersion11Wrote) {
 TEST(TrajectoryFile, readsWhatVersion10Wrote) {
   Trajectory run = driftAndReturn();
   run.world.joints = {{.name = "pin", .kind = Joint::Kind::kBall, .from = {.body = 0}, .to = {}}};
-  std::string record = recordOf(encodeTrajectory(run));
-  const std::size_t end = record.size() - 8 - run.stateHash().size();
-  const std::size_t more = 16 + sinceVersion11(run);
-  EXPECT_EQ(record.substr(end - more, more), std::string(more, '\0'));
-  record.erase(end - more, more);
-  const std::string bytes = withRightChecksum("careen\r\n" + inBytes(10) + pieceOf(record) + "checksum");
+  const std::string bytes = withoutLast(run, 10, 16 + sinceVersion11(run));
   EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
 }
 
 // Format version 9: without joints too, which are four lists before that one.
 TEST(TrajectoryFile, readsWhatVersion9Wrote) {
   const Trajectory run = driftAndReturn();
-  std::string record = recordOf(encodeTrajectory(run));
-  const std::size_t end = record.size() - 8 - run.stateHash().size();
-  const std::size_t more = 32 + sinceVersion11(run);
-  EXPECT_EQ(record.substr(end - more, more), std::string(more, '\0'));
-  record.erase(end - more, more);
-  const std::string bytes = withRightChecksum("careen\r\n" + inBytes(9) + pieceOf(record) + "checksum");
+  const std::string bytes = withoutLast(run, 9, 32 + sinceVersion11(run));
   EXPECT_EQ(encodeTrajectory(decodeTrajectory(bytes, "run.careen")), encodeTrajectory(run));
 }
 
@@ -380,7 +376,7 @@ TEST(TrajectoryFile, aMinuteOfABouncingBoxTakesLessThan50kB) {
 // And only a run that has such walls is of the version that knows them.
 TEST(TrajectoryFile, keepsHowWallsMove) {
   Trajectory run = driftAndReturn();
-  EXPECT_EQ(encodeTrajectory(run)[8], 14);
+  EXPECT_EQ(encodeTrajectory(run)[8], 15);
   const Course course = courseOf({.path = {{0, Vec3::Zero()}, {0.5, Vec3::UnitX()}},
                                   .angularVelocity = Vec3(0, 0, 2),
                                   .about = Vec3(50, 1, 0)},
@@ -388,7 +384,7 @@ TEST(TrajectoryFile, keepsHowWallsMove) {
   run.world.walls.push_back({.name = "door", .normal = Vec3::UnitX(), .material = {}, .course = course});
   run.stage.planes.push_back({.normal = Vec3::UnitX(), .course = course});
   const std::string bytes = encodeTrajectory(run);
-  EXPECT_EQ(bytes[8], 15);
+  EXPECT_EQ(bytes[8], 16);
   const Trajectory back = decodeTrajectory(bytes, "run.careen");
   EXPECT_EQ(back.world.walls.back().course, course);
   EXPECT_EQ(back.stage.planes.back().course, course);
@@ -397,8 +393,8 @@ TEST(TrajectoryFile, keepsHowWallsMove) {
 
 TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
-  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 15: a newer careen wrote it"),
-                                        std::pair('\3', "3, expected 4 to 15: simulate its scene again")}) {
+  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 16: a newer careen wrote it"),
+                                        std::pair('\3', "3, expected 4 to 16: simulate its scene again")}) {
     bytes[8] = version;
     EXPECT_EQ(messageOf(withRightChecksum(bytes)),
               "run.careen: this trajectory file has format version " + std::string(remedy));

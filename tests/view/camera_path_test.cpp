@@ -123,6 +123,16 @@ TEST(CameraPath, twoKeysAreAnEaseFromRestToRest) {
   EXPECT_EQ(between(two, 0.5).eye.x(), 4 * (3.0 / 16 - 2.0 / 64));
 }
 
+TEST(CameraPath, goesStraightOrCutsWhereAsked) {
+  EXPECT_EQ(between(kKeys, 1.5, Easing::kLinear).eye, kKeys[1].eye);
+  EXPECT_LT((between(kKeys, 2, Easing::kLinear).eye - Vec3(3.5, -5.75, 2.5)).norm(),
+            1e-15);  // a quarter of the way
+  EXPECT_EQ(between(kKeys, 9, Easing::kLinear).eye, kKeys[4].eye);
+  EXPECT_EQ(between(kKeys, 0.5, Easing::kCut).eye, kKeys[0].eye);
+  EXPECT_EQ(between(kKeys, 3.499, Easing::kCut).eye, kKeys[1].eye);
+  EXPECT_EQ(between(kKeys, 3.5, Easing::kCut).eye, kKeys[2].eye);
+}
+
 // ---- Following.
 
 TEST_F(CameraPathTest, followsSteadyMotionExactly) {

@@ -43,6 +43,24 @@ TEST(Camera, depthGrowsAwayFromTheEyeFromMinusOneToOne) {
   EXPECT_LT(last, 1);
 }
 
+// By similar triangles: a point twice as far as what is sharp moves by half of what the eye does, as seen
+// there, along with it; one half as far moves as much, against it.
+TEST(Camera, fromBesideWhatIsSharpStaysWhereItIs) {
+  Camera camera = cameraAt(Vec3(1, -10, 2), Vec3(1, 0, 2), 90);
+  camera.beside = Vec2(0.5, 0.25);
+  camera.sharpAt = 10;
+  const View view = viewOf(camera, {.min = Vec3(-5, -5, -5), .max = Vec3(5, 5, 5)}, kWideAspect);
+  EXPECT_EQ(view.eye, Vec3(1.5, -10, 2.25));
+  const Vec3 sharp = view.pixelFromWorld(Vec3(6, 0, 7), 1280, 720);
+  EXPECT_NEAR(sharp.x(), 640 + 180, 1e-10);
+  EXPECT_NEAR(sharp.y(), 360 - 180, 1e-10);
+  const Vec3 far = view.pixelFromWorld(Vec3(1, 10, 2), 1280, 720);  // 36 px for each of its metres at sharpAt
+  EXPECT_NEAR(far.x(), 640 + 0.25 * 36, 1e-10);
+  EXPECT_NEAR(far.y(), 360 - 0.125 * 36, 1e-10);
+  const Vec3 near = view.pixelFromWorld(Vec3(1, -5, 2), 1280, 720);
+  EXPECT_NEAR(near.x(), 640 - 0.5 * 36, 1e-10);
+}
+
 TEST(Camera, orientationIsSpecialOrthogonal) {
   const Mat3 a = lookAt(Vec3(3, -4, 2), Vec3(0.5, 1, -1), Vec3(0.2, 0.1, 1));
   EXPECT_LT(orthogonalityError(a), 1e-15);

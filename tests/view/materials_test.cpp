@@ -48,5 +48,18 @@ TEST(Materials, ofBlueprintsHaveNeitherShadeNorTiles) {
   EXPECT_GT(blueprint.lineColor.minCoeff(), blueprint.boxColor.maxCoeff()) << "light on dark";
 }
 
+TEST(Materials, areTheLooksButForWhatTheSceneSays) {
+  Stage stage;
+  stage.picture.look = Look::kClay;
+  EXPECT_EQ(materialsOf(stage).boxRoughness, materialsOf(Look::kClay).boxRoughness);
+  EXPECT_FALSE(materialsOf(stage).marks);
+  stage.scenery.marks = true;
+  stage.scenery.gloss = 1;
+  EXPECT_TRUE(materialsOf(stage).marks);
+  EXPECT_NEAR(materialsOf(stage).boxRoughness, 0.1, 1e-15);
+  stage.scenery.gloss = 0;
+  EXPECT_EQ(materialsOf(stage).boxRoughness, 1);
+}
+
 }  // namespace
 }  // namespace careen

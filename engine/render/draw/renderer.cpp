@@ -128,8 +128,8 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
       extent(extentOf(setup)),
       aspect(stage.picture.aspect()),
       camera(options.camera ? *options.camera : cameraOf(setup, aspect)),
-      lighting(options.lighting ? *options.lighting : lightingOf(stage.picture.look, camera)),
-      materials(options.materials ? *options.materials : materialsOf(stage.picture.look)),
+      lighting(options.lighting ? *options.lighting : lightingOf(stage, camera)),
+      materials(options.materials ? *options.materials : materialsOf(stage)),
       reaches(options.reaches),
       shadows(lighting.light && lighting.light->castsShadow && stage.picture.light.has(LightPart::kShadows) &&
               !world.bodies.empty()),

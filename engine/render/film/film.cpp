@@ -19,10 +19,8 @@
 #include "image/picture_ring.h"
 #include "image/png.h"
 #include "image/video_pipe.h"
-#include "render/draw/renderer.h"
-#include "render/film/filming.h"
+#include "render/film/film_pictures.h"
 #include "render/film/workers.h"
-#include "render/overlay/overlays.h"
 
 namespace careen {
 namespace {
@@ -42,15 +40,26 @@ double coreSeconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-FilmManifest manifestOf(const Trajectory& run, const FilmSettings& settings, double duration) {
+std::string hashesOf(std::span<const Trajectory* const> runs) {
+  std::string hashes;
+  for (const Trajectory* const run : runs) {
+    hashes.append(hashes.empty() ? "" : ",").append(run->stateHash());
+  }
+  return hashes;
+}
+
+FilmManifest manifestOf(const Trajectory& run, const FilmSettings& settings, const FilmPictures& pictures) {
+  const PictureSettings picture = pictures.settings();
   FilmManifest manifest{.program = settings.program,
                         .renderer = {},
                         .libraries = librariesHere(),
                         .sceneHash = run.sceneHash(),
                         .stateHash = run.stateHash(),
+                        .shownAs = run.stage.shownAs,
                         .ghost = settings.ghost != nullptr ? settings.ghost->stateHash() : "",
-                        .picture = run.stage.picture,
-                        .frameCount = run.stage.picture.rate.frameCount(duration),
+                        .beside = hashesOf(settings.beside),
+                        .picture = picture,
+                        .frameCount = picture.rate.frameCount(pictures.duration()),
                         .frames = {},
                         .hashes = {}};
   manifest.frames = framesOf(settings.frames, manifest.frameCount);
@@ -105,30 +114,23 @@ std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings, const Pictur
 }
 
 // Sets up a job in its own process. The ring has slots if there is a video.
-FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const FilmSettings& settings,
-                           const std::vector<std::int64_t>& frames, std::optional<Overlays>& overlays,
-                           int jobs, const PictureRing& ring) {
+FrameWorkshop openWorkshop(FilmPictures& pictures, const FilmSettings& settings,
+                           const std::vector<std::int64_t>& frames, int jobs, const PictureRing& ring) {
   if (glWasOpened()) {  // otherwise it would wait for threads that were not forked
     throw MachineError("no job can draw: GL had been opened before it was forked");
   }
-  RenderOptions options = optionsOfJob(settings, jobs);
-  filming.prepare(options);
-  const auto renderer = std::make_shared<Renderer>(run, options);
-  const PictureSettings& settingsOfPicture = run.stage.picture;
-  const auto work = [renderer, &filming, &settings, &settingsOfPicture, &frames, &overlays, &ring](
+  pictures.open(optionsOfJob(settings, jobs));
+  const auto work = [&pictures, &settings, &frames, &ring, rate = pictures.settings().rate](
                         std::int64_t index, std::int64_t frame) {
     if (index < 0 || index >= std::ssize(frames) || frames[static_cast<std::size_t>(index)] != frame) {
       throw MachineError("a job was asked for frame " + std::to_string(frame) + ", which nobody ordered");
     }
-    FrameFigures figures{.frame = frame, .time = settingsOfPicture.rate.frameTime(frame)};
-    const DrawFigures before = renderer->figures();
-    Picture picture =
-        filming.draw(*renderer, figures.time, settingsOfPicture.shutter, settingsOfPicture.rate);
-    if (overlays) {
-      filming.explain(*renderer, picture, figures.time, *overlays);
-    }
-    figures.drawSeconds = renderer->figures().drawSeconds - before.drawSeconds;
-    figures.readSeconds = renderer->figures().readSeconds - before.readSeconds;
+    FrameFigures figures{.frame = frame, .time = rate.frameTime(frame)};
+    const DrawFigures before = pictures.figures();
+    const Picture picture = pictures.draw(figures.time);
+    const DrawFigures after = pictures.figures();
+    figures.drawSeconds = after.drawSeconds - before.drawSeconds;
+    figures.readSeconds = after.readSeconds - before.readSeconds;
     const double begun = wallSeconds();
     if (ring.places() > 0) {
       std::copy(picture.rgb.begin(), picture.rgb.end(), ring[index].begin());
@@ -139,7 +141,7 @@ FrameWorkshop openWorkshop(const Filming& filming, const Trajectory& run, const 
     figures.encodeSeconds = wallSeconds() - begun;
     return figures;
   };
-  return {.renderer = renderer->rendererName(), .work = work};
+  return {.renderer = pictures.rendererName(), .work = work};
 }
 
 /// Gives frames to idle workers; they finish in any order. A video needs them in frame order: the ring
@@ -273,24 +275,22 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
                        const std::stop_token& stop) {
   const double wallBegun = wallSeconds();
   const double coreBegun = coreSeconds();
-  const PictureSettings& picture = run.stage.picture;
-  const Filming filming(run);
-  FilmManifest asked = manifestOf(run, settings, filming.duration());
-  filming.checkCamera(asked.frames, picture.rate);
+  FilmPictures pictures(run, settings.beside, settings.ghost);
+  const PictureSettings picture = pictures.settings();
+  FilmManifest asked = manifestOf(run, settings, pictures);
+  pictures.first().checkCamera(asked.frames, picture.rate);
   FilmFolder folder(settings.folder);
   refuseAnotherFilm(folder, asked, settings.there);
   const std::vector<std::int64_t> missing =
       settings.there == FilmThere::kResume ? folder.missing(asked) : asked.frames;
 
   // Everything that may fail comes before the existing film is changed. Existing frames need no GL.
-  std::optional<Overlays> overlays;
-  if (!missing.empty() && (picture.overlays.any() || settings.ghost != nullptr)) {
-    overlays.emplace(run, picture.overlays, picture.rate.frameTime(1), settings.ghost);
+  if (!missing.empty()) {
+    pictures.makeOverlays();
   }
   const int jobs = jobCount(settings, missing.size());
   const PictureRing ring(settings.video ? jobs + 2 : 0, bytesOf(picture));
-  FilmWorkers workers(
-      jobs, [&] { return openWorkshop(filming, run, settings, asked.frames, overlays, jobs, ring); });
+  FilmWorkers workers(jobs, [&] { return openWorkshop(pictures, settings, asked.frames, jobs, ring); });
   asked.renderer = workers.renderer();
   refuseAnotherFilm(folder, asked, settings.there);
   const std::unique_ptr<VideoPipe> video =

@@ -34,6 +34,8 @@ struct FilmSettings {
   FilmThere there = FilmThere::kDrawAgain;
   /// Another run of the boxes, shown as outlines; null: none. It must last until the film is done.
   const Trajectory* ghost = nullptr;
+  /// Other runs, shown beside it, likewise.
+  std::vector<const Trajectory*> beside;
   /// Number of worker processes, each drawing one frame at a time; absent: one per core. Never more than
   /// there are frames to draw.
   std::optional<int> jobs;

@@ -1,6 +1,7 @@
 #include "render/film/filming.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/brief.h"
@@ -8,6 +9,8 @@
 #include "image/light_average.h"
 #include "render/draw/renderer.h"
 #include "render/overlay/overlays.h"
+#include "stage/turn.h"
+#include "view/camera.h"
 
 namespace careen {
 namespace {
@@ -21,7 +24,8 @@ struct Sample {
 };
 
 bool isSame(const Camera& a, const Camera& b) {
-  return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovDegrees == b.fovDegrees;
+  return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovDegrees == b.fovDegrees &&
+         a.beside == b.beside && a.sharpAt == b.sharpAt;
 }
 
 bool isSame(const Sample& a, const Sample& b, const Stage& stage) {
@@ -41,6 +45,32 @@ Filming::Filming(const Trajectory& run)
 
 Camera Filming::camera(double filmTime) const {
   return orbited(path_.at(std::clamp(filmTime, 0.0, duration())), orbit_);
+}
+
+// Points of a spiral that turns by the golden angle: evenly spread however many there are (H. Vogel, "A
+// better way to construct the sunflower head", 1979). They are taken in another order, so that a moment of
+// the exposure has no part of the lens for its own.
+Camera Filming::camera(double filmTime, int index, int count) const {
+  Camera seen = camera(filmTime);
+  if (!run_.stage.focus) {
+    return seen;
+  }
+  constexpr double kGoldenDegrees = 137.50776405003785;
+  constexpr double kPictureHeight = 0.024;  // [m]
+  constexpr int kStride = 421;              // a prime, so that no point is left out
+  const Focus& focus = *run_.stage.focus;
+  const Vec3 sight = (seen.target - seen.eye).normalized();
+  seen.sharpAt = focus.body
+                     ? dot(run_.state(*focus.body, sceneTime(filmTime)).pose.position - seen.eye, sight)
+                     : focus.distance.value_or((seen.target - seen.eye).norm());
+  if (!(seen.sharpAt > 0)) {
+    throw InputError("camera.focus: found a box behind the camera, " + brief(filmTime) + " s into the film");
+  }
+  const double radius = 0.25 * kPictureHeight / (slopeOfView(seen.fovDegrees) * focus.fStop);
+  const int point = kStride * index % count;
+  const Turn turn = turnFrom(std::fmod(kGoldenDegrees * point, 360));
+  seen.beside = radius * std::sqrt((point + 0.5) / count) * Vec2(turn.cosine, turn.sine);
+  return seen;
 }
 
 void Filming::prepare(RenderOptions& options) const {
@@ -66,12 +96,13 @@ void Filming::checkCamera(std::span<const std::int64_t> frames, const FrameRate&
 Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutter,
                       const FrameRate& rate) const {
   const double open = shutter.degrees / 360 * rate.frameTime(1);
-  const int count = open > 0 ? shutter.samples : 1;
+  const int count =
+      std::max(open > 0 ? shutter.samples : 1, run_.stage.focus ? run_.stage.focus->samples : 1);
   std::vector<Sample> samples;
   for (int i = 0; i < count; ++i) {
     const double time = filmTime + open * ((i + 0.5) / count - 0.5);
     Sample sample{
-        .poses = run_.poses(sceneTime(time)), .camera = camera(time), .time = sceneTime(time)};
+        .poses = run_.poses(sceneTime(time)), .camera = camera(time, i, count), .time = sceneTime(time)};
     if (!samples.empty() && isSame(samples.back(), sample, run_.stage)) {
       ++samples.back().weight;  // identical to the last sample: no need to draw it again
     } else {
@@ -79,8 +110,7 @@ Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutte
     }
   }
   if (samples.size() == 1) {
-    return renderer.draw(
-        {.poses = samples[0].poses, .camera = samples[0].camera, .time = samples[0].time});
+    return renderer.draw({.poses = samples[0].poses, .camera = samples[0].camera, .time = samples[0].time});
   }
   LightAverage average;
   for (const Sample& sample : samples) {

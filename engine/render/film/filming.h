@@ -31,6 +31,8 @@ class Filming {
   /// too.
   double sceneTime(double filmTime) const { return clock_.sceneTime(filmTime); }
   Camera camera(double filmTime) const;
+  /// From point `index` of so many of the lens, if the stage has one that is sharp at one distance alone.
+  Camera camera(double filmTime, int index, int count) const;
   /// Sets the camera's orbit relative to the film's camera.
   void turnCamera(const Orbit& orbit) { orbit_ = orbit; }
 
@@ -41,7 +43,8 @@ class Filming {
   void checkCamera(std::span<const std::int64_t> frames, const FrameRate& rate) const;
 
   /// The picture at a moment. With an open shutter (motion blur) it is the average of pictures at the
-  /// midpoints of `samples` equal parts of the exposure time, which is centred on the moment.
+  /// midpoints of `samples` equal parts of the exposure time, which is centred on the moment; and with a
+  /// lens, of pictures from points that are spread evenly over it, as many as the larger of both numbers.
   Picture draw(Renderer& renderer, double filmTime, const Shutter& shutter, const FrameRate& rate) const;
 
   /// Draws the overlays of that moment over its picture.

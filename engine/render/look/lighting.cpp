@@ -1,6 +1,7 @@
 #include "render/look/lighting.h"
 
 #include "view/camera.h"
+#include "view/materials.h"
 
 namespace careen {
 Lighting lightingOf(Look look, const Camera& camera) {
@@ -28,6 +29,28 @@ Lighting lightingOf(Look look, const Camera& camera) {
                   .backgroundTop = Vec3(0.32, 0.33, 0.35),
                   .backgroundBottom = Vec3(0.50, 0.49, 0.48)};
       break;
+  }
+  return lighting;
+}
+
+Lighting lightingOf(const Stage& stage, const Camera& camera) {
+  const Scenery& asked = stage.scenery;
+  Lighting lighting = lightingOf(stage.picture.look, camera);
+  Light& light = *lighting.light;
+  light.towards = asked.towardsLight.value_or(light.towards);
+  if (asked.lightDegrees) {
+    light.spread = slopeOfView(*asked.lightDegrees);
+  }
+  if (asked.lightColor) {
+    light.color = linearFromSrgb(*asked.lightColor);
+  }
+  if (asked.ambient) {
+    lighting.sky = linearFromSrgb(asked.ambient->above);
+    lighting.ground = linearFromSrgb(asked.ambient->below);
+  }
+  if (asked.background) {
+    lighting.backgroundTop = linearFromSrgb(asked.background->above);
+    lighting.backgroundBottom = linearFromSrgb(asked.background->below);
   }
   return lighting;
 }

@@ -5,6 +5,7 @@
 #include "core/math/linear_algebra.h"
 #include "stage/camera.h"
 #include "stage/picture_settings.h"
+#include "stage/stage.h"
 
 namespace careen {
 
@@ -28,5 +29,7 @@ struct Lighting {
 /// The lighting of a look. The light comes over the camera's left shoulder; in the studio look it is warm,
 /// with soft blue ambient light from above.
 Lighting lightingOf(Look look, const Camera& camera);
+/// The same with what the scene says of it.
+Lighting lightingOf(const Stage& stage, const Camera& camera);
 
 }  // namespace careen

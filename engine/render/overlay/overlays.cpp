@@ -4,6 +4,8 @@
 #include <array>
 #include <iterator>
 
+#include "render/overlay/titles.h"
+
 namespace careen {
 namespace {
 
@@ -84,7 +86,8 @@ Overlays::Overlays(const Trajectory& trajectory, const OverlaySet& shown, double
                    const Trajectory* ghost, std::span<const std::filesystem::path> folders)
     : trajectory_(trajectory), frameSeconds_(frameSeconds), ghost_(ghost), shown_(backToFront(shown)) {
   findLargest(shown_, trajectory);
-  if (std::any_of(shown_.begin(), shown_.end(), isWritten) || ghost != nullptr) {
+  if (std::any_of(shown_.begin(), shown_.end(), isWritten) || ghost != nullptr ||
+      !trajectory.stage.scenery.titles.empty()) {
     fonts_ = OverlayFonts{.plain = findFont(kPlainFont, folders),
                           .monospaced = findFont(kMonospacedFont, folders)};
   }
@@ -186,7 +189,15 @@ OverlayShapes Overlays::shapesAt(double filmTime, const MomentAt& momentAt, int 
   addLayers(OverlayLayer::kTrails, OverlayLayer::kImpacts);
   addPanels(shapes, frame, shown_);
   addLayers(OverlayLayer::kNames, OverlayLayer::kNames);
+  addTitles(shapes, frame, trajectory_.stage.scenery.titles, filmTime);
   return shapes;
+}
+
+std::unique_ptr<Overlays> overlaysOf(const Trajectory& run, const Trajectory* ghost) {
+  const PictureSettings& picture = run.stage.picture;
+  return picture.overlays.any() || ghost != nullptr || !run.stage.scenery.titles.empty()
+             ? std::make_unique<Overlays>(run, picture.overlays, picture.rate.frameTime(1), ghost)
+             : nullptr;
 }
 
 }  // namespace careen

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,8 +22,8 @@ class Overlays {
   Overlays(const Trajectory& trajectory, const OverlaySet& shown, double frameSeconds,
            const Trajectory* ghost = nullptr, std::span<const std::filesystem::path> folders = fontFolders());
 
-  /// At this time of the film [s]; names ask for the moments around it too. `width`, `height` of the picture
-  /// [px]. The same moments give the same shapes, whatever was asked before.
+  /// With the titles of the stage. At this time of the film [s]; names ask for the moments around it too.
+  /// `width`, `height` of the picture [px]. The same moments give the same shapes, whatever was asked before.
   OverlayShapes shapesAt(double filmTime, const MomentAt& momentAt, int width, int height);
 
  private:
@@ -39,5 +40,8 @@ class Overlays {
   std::optional<ForceSamples> forces_;
   std::optional<Names> names_;
 };
+
+/// Those that a run's stage asks for, and its titles, with that ghost; none if there is nothing to draw.
+std::unique_ptr<Overlays> overlaysOf(const Trajectory& run, const Trajectory* ghost = nullptr);
 
 }  // namespace careen

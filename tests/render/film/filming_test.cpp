@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "render/draw/renderer.h"
@@ -89,6 +90,38 @@ TEST_F(FilmingTest, blurAtTheFilmsEndsStaysWithinIt) {
     filming().draw(renderer_, end, {.degrees = 360, .samples = 8}, kRate);
     EXPECT_EQ(renderer_.figures().frames, before + 5);
   }
+}
+
+// Of a lens 0.8 m wide: 24 mm high, 40° of view, so 33 mm of focal length over 0.0412.
+TEST_F(FilmingTest, pointsOfTheLensAreAllOverItAndWhatIsSharpStaysSharp) {
+  scene_.camera = cameraAt(Vec3(0, -8, 1), Vec3(0, 0, 1), 40);
+  scene_.focus = Focus{.fStop = 0.0412, .distance = 8.0, .samples = 40};
+  const Filming film = filming();
+  const double radius = 0.012 / std::tan(20 * std::numbers::pi / 180) / 0.0412 / 2;
+  std::array<int, 4> inQuarter{};
+  int inner = 0;
+  for (int k = 0; k < 40; ++k) {
+    const Camera seen = film.camera(0, k, 40);
+    EXPECT_EQ(seen.sharpAt, 8);
+    EXPECT_LT(seen.beside.norm(), radius);
+    inner += seen.beside.norm() < radius / std::sqrt(2.0) ? 1 : 0;
+    inQuarter.at((seen.beside.x() > 0 ? 1U : 0U) + (seen.beside.y() > 0 ? 2U : 0U)) += 1;
+  }
+  EXPECT_EQ(inner, 20) << "half of them on half of its area";
+  for (const int count : inQuarter) {
+    EXPECT_NEAR(count, 10, 2);
+  }
+  const Picture drawn = film.draw(renderer_, 0.5, {}, kRate);
+  EXPECT_EQ(renderer_.figures().frames, 40);
+  scene_.focus.reset();
+  EXPECT_NE(drawn.rgb, plain(0.5).rgb);
+}
+
+TEST_F(FilmingTest, aLensIsSharpAtABox) {
+  scene_.camera = cameraAt(Vec3(0, -8, 1), Vec3(0, 0, 1), 40);
+  scene_.focus = Focus{.fStop = 1, .body = 0};
+  const Vec3 at = run_.poses(0.5)[0].position;
+  EXPECT_NEAR(filming().camera(0.5, 0, 32).sharpAt, at.y() + 8, 1e-12);
 }
 
 TEST_F(FilmingTest, strobeHasEveryMoment) {

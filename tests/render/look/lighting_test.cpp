@@ -36,5 +36,31 @@ TEST(Lighting, shinesOverTheLeftShoulder) {
   }
 }
 
+TEST(Lighting, isTheLooksButForWhatTheSceneSays) {
+  const Camera camera = cameraAt(Vec3(6, -8, 4), Vec3(0, 0, 1), 40);
+  Stage stage;
+  stage.picture.look = Look::kClay;
+  const Lighting look = lightingOf(Look::kClay, camera);
+  EXPECT_EQ(lightingOf(stage, camera).light->towards, look.light->towards);
+  EXPECT_EQ(lightingOf(stage, camera).light->spread, look.light->spread);
+  EXPECT_EQ(lightingOf(stage, camera).sky, look.sky);
+  stage.scenery = {.towardsLight = Vec3(0, 0.6, 0.8),
+                   .lightDegrees = 90,
+                   .lightColor = Color{255, 0, 188},
+                   .ambient = ColorPair{{0, 255, 0}, {0, 0, 255}},
+                   .background = ColorPair{{255, 255, 255}, {0, 0, 0}},
+                   .gloss = {},
+                   .marks = {},
+                   .titles = {}};
+  const Lighting asked = lightingOf(stage, camera);
+  EXPECT_EQ(asked.light->towards, Vec3(0, 0.6, 0.8));
+  EXPECT_NEAR(asked.light->spread, 1, 1e-15);  // the tangent of 45°
+  EXPECT_NEAR(asked.light->color.z(), 0.50289, 1e-5);
+  EXPECT_EQ(asked.sky, Vec3(0, 1, 0));
+  EXPECT_EQ(asked.ground, Vec3(0, 0, 1));
+  EXPECT_EQ(asked.backgroundTop, Vec3(1, 1, 1));
+  EXPECT_EQ(asked.backgroundBottom, Vec3(0, 0, 0));
+}
+
 }  // namespace
 }  // namespace careen

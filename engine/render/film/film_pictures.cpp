@@ -1,0 +1,157 @@
+#include "render/film/film_pictures.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+#include "core/error.h"
+
+namespace careen {
+namespace {
+
+// All pictures are of the same height.
+Picture joined(const std::vector<Picture>& pictures) {
+  Picture all{.width = 0, .height = pictures.front().height, .rgb = {}};
+  for (const Picture& each : pictures) {
+    all.width += each.width;
+  }
+  all.rgb.reserve(all.rowBytes() * static_cast<std::size_t>(all.height));
+  for (std::size_t row = 0; row < static_cast<std::size_t>(all.height); ++row) {
+    for (const Picture& each : pictures) {
+      const std::uint8_t* const begin = each.rgb.data() + row * each.rowBytes();
+      all.rgb.insert(all.rgb.end(), begin, begin + each.rowBytes());
+    }
+  }
+  return all;
+}
+
+void entitle(Trajectory& run, const std::string& name) {
+  // From before the film begins, so that it does not fade.
+  run.stage.scenery.titles.push_back({.from = -1, .to = 1e9, .text = name, .place = TitlePlace::kTop});
+}
+
+}  // namespace
+
+FilmPictures::FilmPictures(const Trajectory& run, std::span<const Trajectory* const> beside,
+                           const Trajectory* ghost) {
+  const auto add = [this](const Trajectory& shown, const Trajectory* itsGhost) {
+    shown_.push_back({.run = &shown,
+                      .ghost = itsGhost,
+                      .filming = std::make_unique<Filming>(shown),
+                      .overlays = nullptr,
+                      .renderer = nullptr});
+  };
+  add(run, ghost);
+  for (const Trajectory* const each : beside) {
+    add(*each, nullptr);
+  }
+}
+
+double FilmPictures::duration() const {
+  double longest = 0;
+  for (const Shown& each : shown_) {
+    longest = std::max(longest, each.filming->duration());
+  }
+  return longest;
+}
+
+PictureSettings FilmPictures::settings() const {
+  PictureSettings all = shown_.front().run->stage.picture;
+  all.width *= static_cast<int>(shown_.size());
+  return all;
+}
+
+void FilmPictures::turnCamera(const Orbit& orbit) {
+  for (const Shown& each : shown_) {
+    each.filming->turnCamera(orbit);
+  }
+}
+
+void FilmPictures::makeOverlays() {
+  for (Shown& each : shown_) {
+    each.overlays = overlaysOf(*each.run, each.ghost);
+  }
+}
+
+void FilmPictures::open(const RenderOptions& options) {
+  for (Shown& each : shown_) {
+    RenderOptions own = options;
+    each.filming->prepare(own);
+    each.renderer = std::make_unique<Renderer>(*each.run, own);
+  }
+}
+
+Picture FilmPictures::draw(double filmTime) {
+  std::vector<Picture> pictures;
+  for (Shown& each : shown_) {
+    const PictureSettings& picture = each.run->stage.picture;
+    pictures.push_back(each.filming->draw(*each.renderer, filmTime, picture.shutter, picture.rate));
+    if (each.overlays) {
+      each.filming->explain(*each.renderer, pictures.back(), filmTime, *each.overlays);
+    }
+  }
+  return pictures.size() == 1 ? std::move(pictures.front()) : joined(pictures);
+}
+
+Picture FilmPictures::drawStrobe(std::span<const double> filmTimes) {
+  Shown& first = shown_.front();
+  Picture picture = first.filming->drawStrobe(*first.renderer, filmTimes);
+  if (first.overlays) {
+    first.filming->explainStrobe(*first.renderer, picture, filmTimes, *first.overlays);
+  }
+  return picture;
+}
+
+DrawFigures FilmPictures::figures() const {
+  DrawFigures all;
+  for (const Shown& each : shown_) {
+    const DrawFigures& figures = each.renderer->figures();
+    all.frames += figures.frames;
+    all.shadowPasses += figures.shadowPasses;
+    all.occlusionPasses += figures.occlusionPasses;
+    all.overlayPasses += figures.overlayPasses;
+    all.drawSeconds += figures.drawSeconds;
+    all.readSeconds += figures.readSeconds;
+  }
+  return all;
+}
+
+void showFirst(Trajectory& run, const std::string& name) {
+  Stage& stage = run.stage;
+  if (!stage.camera) {
+    stage.camera = Filming(run).camera(0);
+  }
+  stage.picture.overlays.add(Overlay::kTime);
+  entitle(run, name);
+}
+
+void showBeside(Trajectory& run, const Trajectory& first, const std::string& name) {
+  const auto sameBox = [&](std::optional<std::size_t>& body) {
+    if (!body) {
+      return;
+    }
+    const std::string& wanted = first.world.bodies[*body].name;
+    const auto found = std::find_if(run.world.bodies.begin(), run.world.bodies.end(),
+                                    [&](const Body& each) { return each.name == wanted; });
+    if (found == run.world.bodies.end()) {
+      throw InputError("found no box '" + wanted + "', which the camera needs, expected one in each run");
+    }
+    body = static_cast<std::size_t>(found - run.world.bodies.begin());
+  };
+  Stage& stage = run.stage;
+  stage.camera = first.stage.camera;
+  stage.cameraMove = first.stage.cameraMove;
+  stage.focus = first.stage.focus;
+  stage.timeMap = first.stage.timeMap;
+  stage.picture = first.stage.picture;
+  stage.picture.overlays.remove(Overlay::kTime);
+  stage.scenery = first.stage.scenery;
+  stage.scenery.titles.clear();
+  sameBox(stage.cameraMove.followed);
+  if (stage.focus) {
+    sameBox(stage.focus->body);
+  }
+  entitle(run, name);
+}
+
+}  // namespace careen
