@@ -379,7 +379,7 @@ PYBIND11_MODULE(careen, module) {
       py::arg("tolerance") = py::none(), py::arg("threads") = 1, py::arg("control") = py::none(),
       py::arg("period") = py::none(),
       "Simulates a scene: the path of a scene file, or a dictionary with the same keys (motion of fixed "
-      "boxes, gravity that changes, parts and joints among them). method (str) and "
+      "boxes and walls, gravity that changes, parts and joints among them). method (str) and "
       "tolerance [m] replace those of the scene; threads share the steps of large crowds, and nothing but "
       "the time depends on them. control(t, boxes, joints) is called each period [s], with the arrays of "
       "Run.states "

@@ -123,14 +123,18 @@ std::vector<double> Auditor::moments() const {
       moments.insert(std::lower_bound(moments.begin(), moments.end(), change.time), change.time);
     }
   }
-  for (const Body& body : run_.world.bodies) {
-    for (const CoursePart& part : body.course) {
-      const auto at = std::lower_bound(moments.begin(), moments.end(), part.from);
-      if (part.from < run_.settings.duration && (at == moments.end() || *at != part.from)) {
-        moments.insert(at, part.from);
+  const auto addParts = [&](const auto& all) {
+    for (const auto& owner : all) {
+      for (const CoursePart& part : owner.course) {
+        const auto at = std::lower_bound(moments.begin(), moments.end(), part.from);
+        if (part.from < run_.settings.duration && (at == moments.end() || *at != part.from)) {
+          moments.insert(at, part.from);
+        }
       }
     }
-  }
+  };
+  addParts(run_.world.bodies);
+  addParts(run_.world.walls);
   return moments;
 }
 
@@ -146,7 +150,7 @@ void Auditor::checkWalls(std::size_t index, const Pose& pose, double time) {
     return;
   }
   for (std::size_t wall = 0; wall < run_.world.walls.size(); ++wall) {
-    const double depth = -separationOf(body(index), pose, run_.world.walls[wall]);
+    const double depth = -separationOf(body(index), pose, planeAt(run_.world.walls[wall], time));
     if (!(depth <= 0)) {
       found(AuditKind::kWallOverlap, placeRounding(body(index), pose.position),
             {.size = depth, .time = time, .bodies = {index}, .wall = wall});

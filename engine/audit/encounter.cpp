@@ -116,7 +116,7 @@ double energyOf(const ObservedEncounter& encounter, const BodyState& body, const
 }  // namespace
 
 double gapOf(const ObservedEncounter& encounter, const BodyState& body, const BodyState& other) {
-  return encounter.wall != nullptr ? separationOf(*encounter.body, body.pose, *encounter.wall)
+  return encounter.wall != nullptr ? separationOf(*encounter.body, body.pose, planeAt(*encounter.wall, 0))
                                    : separationOf(*encounter.body, body.pose, *encounter.other, other.pose);
 }
 

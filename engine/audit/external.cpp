@@ -22,6 +22,12 @@ bool isMovable(const World& world, const std::optional<int>& body) {
   return body && !isImmovable(world.bodies[static_cast<std::size_t>(*body)].mass);
 }
 
+bool turns(const Course& course) {
+  return std::any_of(course.begin(), course.end(), [](const CoursePart& part) {
+    return !part.motion.spin.isZero(0) || !part.motion.swing.isZero(0);
+  });
+}
+
 }  // namespace
 
 ExternalOf::ExternalOf(const Trajectory& run, const ExchangeGroup& group, Vec3 origin)
@@ -148,9 +154,13 @@ void ExternalOf::addTouches(std::size_t member, std::size_t segment, External& e
     addFixed(fixed, time_, external);
   }
   for (const std::size_t wall : touches.walls) {
-    addBelt(run_.world.walls[wall].material.surface, Of::kWall, external);
-    addWall(wall, touching(run_.world.bodies[body].material, run_.world.walls[wall].material).friction,
-            external);
+    const Wall& touched = run_.world.walls[wall];
+    addSurface(touched, time_, external);
+    if (turns(touched.course)) {  // any way
+      external.liesOnImmovable = true;
+    } else {
+      addWall(wall, touching(run_.world.bodies[body].material, touched.material).friction, external);
+    }
   }
 }
 
@@ -167,9 +177,21 @@ void ExternalOf::addFixed(std::size_t fixed, double time, External& external) co
   const Body& body = run_.world.bodies[fixed];
   if (body.course.empty()) {
     addBelt(body.material.surface, Of::kBox, external);
-    return;
+  } else {
+    addCourse(body.course, time, external);
   }
-  const Driven& motion = partAt(body.course, time).motion;
+}
+
+void ExternalOf::addSurface(const Wall& wall, double time, External& external) {
+  if (wall.course.empty()) {
+    addBelt(wall.material.surface, Of::kWall, external);
+  } else {
+    addCourse(wall.course, time, external);
+  }
+}
+
+void ExternalOf::addCourse(const Course& course, double time, External& external) {
+  const Driven& motion = partAt(course, time).motion;
   addBelt({.velocity = motion.velocity}, Of::kWall, external);
   external.hasUnknownBelts = external.hasUnknownBelts || !motion.spin.isZero(0) || motion.swings();
 }
@@ -239,15 +261,15 @@ ExternalOf::Touches ExternalOf::touchesOf(std::size_t body, std::size_t segment)
   Touches touches;
   for (const double elapsed : {0.0, lengthOf(body, segment)}) {
     const Pose place = placeOf(body, segment, elapsed);
+    const double time = run_.tracks[body].segments[segment].start + elapsed;
     for (std::size_t wall = 0; wall < run_.world.walls.size(); ++wall) {
-      if (separationOf(owner, place, run_.world.walls[wall]) <= near) {
+      if (separationOf(owner, place, planeAt(run_.world.walls[wall], time)) <= near) {
         touches.walls.push_back(wall);
       }
     }
     for (const std::size_t fixed : immovables_) {
       const Body& other = run_.world.bodies[fixed];
       const double reach = radiusOf(owner) + radiusOf(other) + near;
-      const double time = run_.tracks[body].segments[segment].start + elapsed;
       const Pose where = other.course.empty() ? other.initial.pose : partAt(other.course, time).at(time).pose;
       if (mayTouch(run_.world, static_cast<int>(body), static_cast<int>(fixed)) &&
           (place.position - where.position).norm() <= reach &&
@@ -292,7 +314,7 @@ void ExternalOf::addImpacts(double time, External& external) {
       addFixed(a, impact.time, external);
     }
     if (impact.b.isWall()) {
-      addBelt(other.surface, Of::kWall, external);
+      addSurface(world.walls[impact.b.wall()], impact.time, external);
     } else if (const auto b = static_cast<std::size_t>(impact.b.body()); isImmovable(world.bodies[b].mass)) {
       addFixed(b, impact.time, external);
     }

@@ -49,6 +49,8 @@ class ExternalOf {
   enum class Of { kWall, kBox };
   static void addBelt(const SurfaceMotion& surface, Of of, External& external);
   void addFixed(std::size_t fixed, double time, External& external) const;
+  static void addSurface(const Wall& wall, double time, External& external);
+  static void addCourse(const Course& course, double time, External& external);
   void addWall(std::size_t wall, double friction, External& external) const;
 
   /// What a body touches while it does not fly.

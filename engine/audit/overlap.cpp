@@ -53,7 +53,7 @@ double separationOf(const AuditBox& a, const AuditBox& b) {
   return finite ? widest : std::numeric_limits<double>::quiet_NaN();
 }
 
-double separationOf(const AuditBox& box, const Wall& wall) {
+double separationOf(const AuditBox& box, const WallPlane& wall) {
   return wall.normal.dot(box.pose.position) - wall.offset - reachAlong(box, wall.normal);
 }
 
@@ -68,7 +68,7 @@ double separationOf(const Body& a, const Pose& poseA, const Body& b, const Pose&
   return least;
 }
 
-double separationOf(const Body& body, const Pose& pose, const Wall& wall) {
+double separationOf(const Body& body, const Pose& pose, const WallPlane& wall) {
   double least = std::numeric_limits<double>::infinity();
   for (const AuditBox& box : auditBoxes(body, pose)) {
     least = nearer(least, separationOf(box, wall));

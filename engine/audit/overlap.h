@@ -47,10 +47,10 @@ void forEachAxis(const AuditBox& a, const AuditBox& b, const Look& look) {
 double separationOf(const AuditBox& a, const AuditBox& b);
 
 /// Signed distance [m] of a box's lowest corner from a wall; negative: behind it.
-double separationOf(const AuditBox& box, const Wall& wall);
+double separationOf(const AuditBox& box, const WallPlane& wall);
 
 /// The same of two bodies at their poses, or of a body and a wall: of the boxes that are nearest.
 double separationOf(const Body& a, const Pose& poseA, const Body& b, const Pose& poseB);
-double separationOf(const Body& body, const Pose& pose, const Wall& wall);
+double separationOf(const Body& body, const Pose& pose, const WallPlane& wall);
 
 }  // namespace careen

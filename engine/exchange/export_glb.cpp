@@ -216,12 +216,21 @@ class GlbWriter {
   void addSurfaces() {
     std::size_t number = 0;
     for (const Surface& surface : surfacesOf(run_.stage, extentOf(run_), materials_, wallReachesOf(run_))) {
+      if (surface.outline.empty()) {
+        continue;  // it moves by itself, and begins outside
+      }
+      const Plane* const moving =
+          surface.plane >= 0 ? &run_.stage.planes[static_cast<std::size_t>(surface.plane)] : nullptr;
+      const Pose frame = moving != nullptr ? moving->frameAt(0) : Pose{};
       std::vector<float> positions;
       std::vector<float> normals;
       std::vector<std::uint16_t> indices;
       for (std::size_t i = 0; i < surface.outline.size(); ++i) {
-        appendFloats(positions, surface.outline[i]);
-        appendFloats(normals, surface.normal);
+        const Vec3& place = surface.outline[i];
+        appendFloats(positions, moving == nullptr
+                                    ? place
+                                    : Vec3(frame.worldFromBody.transpose() * (place - frame.position)));
+        appendFloats(normals, moving == nullptr ? surface.normal : moving->normal);
         if (i >= 2) {
           for (const std::size_t corner : {std::size_t{0}, i - 1, i}) {
             indices.push_back(static_cast<std::uint16_t>(corner));
@@ -239,6 +248,9 @@ class GlbWriter {
               {"material", material(surface.color, roughness)}}}}});
       nodes_.push_back(
           {{"name", names_.unique("wall " + std::to_string(number++))}, {"mesh", meshes_.size() - 1}});
+      if (moving != nullptr) {
+        animation_.moveWithCourse(nodes_.size() - 1, nodes_.back(), moving->course);
+      }
     }
   }
 

@@ -61,7 +61,7 @@ class MjcfWriter {
       file_.leftOut.emplace_back("how surfaces move along themselves");
     }
     if (hasCourses(world_)) {
-      file_.leftOut.emplace_back("how fixed boxes move");
+      file_.leftOut.emplace_back("how " + whatHasCourses(world_) + " move");
     }
     leaveOutRestitution();
     for (const std::string& words : file_.leftOut) {

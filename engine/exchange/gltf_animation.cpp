@@ -73,22 +73,26 @@ void GltfAnimation::addKinks(std::size_t body, std::vector<double>& kinks, std::
 
 // Keys are looked for at eighths of the time between two: of a body that turns as often there, it would not
 // be seen that it turns. Seams at golden angles are nowhere in step with that.
-void GltfAnimation::addTurns(std::size_t body, std::vector<double>& seams) const {
+void GltfAnimation::addTurns(double spin, double from, double end, std::vector<double>& seams) {
   constexpr double kMostTurns = 7;
   constexpr double kGoldenAngle = 2.399963229728653;  // [rad]
   constexpr double kMostSeams = 1e5;
+  const double angle = spin * (end - from);
+  if (angle > 2 * std::numbers::pi * kMostTurns) {
+    const double step = std::max(kGoldenAngle, angle / kMostSeams) / spin;
+    for (double time = from + step; time < end; time += step) {
+      seams.push_back(time);
+    }
+  }
+}
+
+void GltfAnimation::addTurns(std::size_t body, std::vector<double>& seams) const {
   const Segments& segments = run_.tracks[body].segments;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const double end = i + 1 < segments.size() ? segments[i + 1].start : run_.settings.duration;
     const MassProperties& mass = run_.world.bodies[body].mass;
-    const double spin = angularVelocity(mass, stateAt(segments[i].motion, mass, 0)).norm();
-    const double angle = spin * (end - segments[i].start);
-    if (angle > 2 * std::numbers::pi * kMostTurns) {
-      const double step = std::max(kGoldenAngle, angle / kMostSeams) / spin;
-      for (double time = segments[i].start + step; time < end; time += step) {
-        seams.push_back(time);
-      }
-    }
+    addTurns(angularVelocity(mass, stateAt(segments[i].motion, mass, 0)).norm(), segments[i].start, end,
+             seams);
   }
   std::sort(seams.begin(), seams.end());
 }
@@ -163,6 +167,28 @@ void GltfAnimation::moveWithBody(std::size_t index, AnimationJson& node, std::si
   addKinks(body, kinks, seams);
   const AnimatedSpan times = span(std::move(kinks), seams);
   const auto pose = [this, body](double time) { return run_.boxPoseAt(body, sceneTime(time)); };
+  animate(index, node, positionKeys(times, within_, [&](double time) { return pose(time).position; }));
+  animate(index, node, rotationKeys(times, within_, [&](double time) {
+            return Quat(pose(time).worldFromBody).normalized();
+          }));
+}
+
+void GltfAnimation::moveWithCourse(std::size_t index, AnimationJson& node, const Course& course) {
+  std::vector<double> kinks;
+  std::vector<double> seams;
+  for (std::size_t k = 0; k < course.size(); ++k) {
+    const double end = k + 1 < course.size() ? course[k + 1].from : run_.settings.duration;
+    const Driven& motion = course[k].motion;
+    if (k > 0) {
+      kinks.push_back(course[k].from);
+    }
+    addTurns(std::max(motion.spin.norm(), motion.swings() ? motion.rate : 0.0), course[k].from, end, seams);
+  }
+  const AnimatedSpan times = span(std::move(kinks), seams);
+  const auto pose = [&](double filmTime) {
+    const double time = sceneTime(filmTime);
+    return partAt(course, time).at(time).pose;
+  };
   animate(index, node, positionKeys(times, within_, [&](double time) { return pose(time).position; }));
   animate(index, node, rotationKeys(times, within_, [&](double time) {
             return Quat(pose(time).worldFromBody).normalized();

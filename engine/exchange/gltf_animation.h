@@ -24,6 +24,8 @@ class GltfAnimation {
   void moveWithBody(std::size_t index, nlohmann::ordered_json& node, std::size_t body);
   /// As the line between the ends of a spring: translation, rotation and scale.
   void moveWithSpring(std::size_t index, nlohmann::ordered_json& node, const Spring& spring);
+  /// As the frame of a wall that moves by itself.
+  void moveWithCourse(std::size_t index, nlohmann::ordered_json& node, const Course& course);
   /// As functions of film time [s] say, whose only kinks are those of the time map.
   void moveBy(std::size_t index, nlohmann::ordered_json& node, const std::function<Vec3(double)>& position,
               const std::function<Quat(double)>& attitude);
@@ -46,6 +48,7 @@ class GltfAnimation {
   std::vector<double> filmTimes(const std::vector<double>& sceneTimes) const;
   AnimatedSpan span(std::vector<double> sceneKinks, const std::vector<double>& sceneSeams) const;
   void addTurns(std::size_t body, std::vector<double>& seams) const;
+  static void addTurns(double spin, double from, double end, std::vector<double>& seams);
   void addKinks(std::size_t body, std::vector<double>& kinks, std::vector<double>& seams) const;
   std::size_t timesAccessor(const std::vector<float>& times);
   void animate(std::size_t index, nlohmann::ordered_json& node, const AnimationKeys<Vec3>& keys);

@@ -60,14 +60,15 @@ struct BoxPart {
   Quaternion orientation = {1, 0, 0, 0};  ///< body from part
 };
 
-/// How a fixed box moves by itself; all of it adds up.
+/// How a fixed box or a wall moves by itself; all of it adds up.
 struct Motion {
-  /// [s] and [m] Where its middle is, in place of `position`: straight from point to point, still before the
+  /// [s] and [m] Where its middle is, in place of `position`, or a wall's `point`: straight from point to point, still before the
   /// first and after the last.
   std::vector<std::pair<double, Vector>> path = {};
   Vector velocity = {0, 0, 0};         ///< [m/s] all the time
   Vector angularVelocity = {0, 0, 0};  ///< [rad/s] world frame, all the time
-  /// [m] What it turns about, in the world at the start; goes along with path and velocity. None: its middle.
+  /// [m] What it turns about, in the world at the start; goes along with path and velocity. None: its middle,
+  /// or a wall's point.
   std::optional<Vector> about = std::nullopt;
   Vector amplitude = {0, 0, 0};         ///< [m] times sin(2π frequency t + phase)
   Vector angularAmplitude = {0, 0, 0};  ///< [rad] likewise, along the angular velocity if there is one
@@ -110,6 +111,7 @@ struct Wall {
   double friction = 0;                 ///< [1]
   Vector surfaceVelocity = {0, 0, 0};  ///< [m/s] a belt: how it moves along itself
   double surfaceSpin = 0;              ///< [rad/s] a turntable: about its normal, through its point
+  std::optional<Motion> motion = std::nullopt;
 };
 
 struct State {

@@ -58,6 +58,17 @@ Json motionOf(const Motion& motion) {
   return json;
 }
 
+// Whose path tells the place, which is the key `place`.
+void addMotion(const std::optional<Motion>& motion, const char* place, Json& json) {
+  if (!motion) {
+    return;
+  }
+  json["motion"] = motionOf(*motion);
+  if (!motion->path.empty() && json[place] == Json(Vector{})) {
+    json.erase(place);
+  }
+}
+
 }  // namespace
 
 Scene::Scene(double duration, Vector gravity) : name_("scene"), built_(true) {
@@ -108,12 +119,7 @@ Scene& Scene::add(const Box& box) {
     json["center"] = box.center;
   }
   addSurface(box, json);
-  if (box.motion) {
-    json["motion"] = motionOf(*box.motion);
-    if (!box.motion->path.empty() && box.position == Vector{}) {
-      json.erase("position");  // which the path tells
-    }
-  }
+  addMotion(box.motion, "position", json);
   if (!box.name.empty()) {
     json["name"] = box.name;
   }
@@ -128,6 +134,7 @@ Scene& Scene::add(const Wall& wall) {
                {"restitution", wall.restitution},
                {"friction", wall.friction}};
   addSurface(wall, json);
+  addMotion(wall.motion, "point", json);
   if (!wall.name.empty()) {
     json["name"] = wall.name;
   }

@@ -59,6 +59,7 @@ class MomentOfContacts {
   bool isHeld(int index) const { return isImmovable(body(index).mass); }
   bool isPushed(int index) const { return !isHeld(index) && at(index).given.has_value(); }
   Vec3 velocityAt(int index, const Vec3& point) const;
+  Vec3 velocityOfWall(std::size_t wall, const Vec3& point) const;
   double reachOf(int a, std::optional<int> b, double times) const;
 
   void findPairs();
@@ -107,6 +108,11 @@ MomentOfContacts::MomentOfContacts(const World& world, const std::vector<PushedB
 Vec3 MomentOfContacts::velocityAt(int index, const Vec3& point) const {
   const Kinematics& moves = kinematics_[static_cast<std::size_t>(index)];
   return moves.velocity + moves.angularVelocity.cross(point - moves.pose.position);
+}
+
+Vec3 MomentOfContacts::velocityOfWall(std::size_t wall, const Vec3& point) const {
+  const Kinematics moves = wallMotion(world_.walls[wall], time_);
+  return moves.velocityAt(point - moves.pose.position);
 }
 
 // [m] What is no farther away may push, that many times as far away as is near: now, or in the while of which
@@ -207,7 +213,8 @@ void MomentOfContacts::setSlip(const Material& pair, Pushing& pushing) const {
   const Vec3& normal = pushing.frame.normal;
   const bool isAtWall = pushing.b->isWall();
   const Vec3 relative = velocityAt(pushing.a, pushing.point) -
-                        (isAtWall ? Vec3(Vec3::Zero()) : velocityAt(pushing.b->body(), pushing.point));
+                        (isAtWall ? velocityOfWall(pushing.b->wall(), pushing.point)
+                                  : velocityAt(pushing.b->body(), pushing.point));
   const Vec3 slip = relative - dot(normal, relative) * normal - pair.surface.along(normal, pushing.point);
   const double slow = std::max(at(pushing.a).slow, isAtWall ? 0 : at(pushing.b->body()).slow);
   pushing.friction = pair.friction;
@@ -215,9 +222,10 @@ void MomentOfContacts::setSlip(const Material& pair, Pushing& pushing) const {
 }
 
 void MomentOfContacts::addWalls(int a, double times, std::vector<Pushing>& pushing) const {
-  const double reach = reachOf(a, {}, times);
+  const double still = reachOf(a, {}, times);
   for (std::size_t w = 0; w < world_.walls.size(); ++w) {
-    const Wall& wall = world_.walls[w];
+    const WallPlane wall = planeAt(world_.walls[w], time_);
+    const double reach = still + at(a).over * velocityOfWall(w, pose(a).position).norm();
     const bool isNear = gapToPlane(boxAt(pose(a), body(a)), wall.normal, wall.offset) <= reach;
     for (int k = 0; isNear && k < body(a).cornerCount(); ++k) {
       const Vec3 point = corner(body(a), k);
@@ -226,7 +234,7 @@ void MomentOfContacts::addWalls(int a, double times, std::vector<Pushing>& pushi
                            .b = Partner::ofWall(w),
                            .point = pose(a).worldPoint(point),
                            .frame = frameOf(wall.normal)});
-        setSlip(touching(body(a).material, wall.material), pushing.back());
+        setSlip(touching(body(a).material, world_.walls[w].material), pushing.back());
       }
     }
   }

@@ -38,6 +38,7 @@ class Pair {
     return with.isWall() ? std::vector{body} : std::vector{body, static_cast<std::size_t>(with.body())};
   }
   RateBounds boundsFromWall() const;
+  RateBounds boundsFromDriven() const;
 
   Pieces pieces_;
   const Wall* wall_;
@@ -46,7 +47,7 @@ class Pair {
 double Pair::gapAt(double time) const {
   const MovingBody& own = pieces_[0];
   const Pose pose = own.at(time).pose;
-  return wall_ != nullptr ? separationOf(*own.body, pose, *wall_)
+  return wall_ != nullptr ? separationOf(*own.body, pose, planeAt(*wall_, time))
                           : separationOf(*own.body, pose, *pieces_[1].body, pieces_[1].at(time).pose);
 }
 
@@ -67,11 +68,43 @@ RateBounds Pair::boundsFromWall() const {
   return gap;
 }
 
+// Likewise: n·(Δ + r), where n turns with the wall and Δ leads from its origin. The parts of its course have
+// different speeds.
+RateBounds Pair::boundsFromDriven() const {
+  const MovingBody& box = pieces_[0];
+  const MotionBounds bounds = box.boundsWithin(pieces_.from(), pieces_.to());
+  const double radius = radiusOf(*box.body);
+  MotionRates wall;
+  int parts = 0;
+  for (std::size_t k = 0; k < wall_->course.size(); ++k) {
+    const bool isOver = k + 1 < wall_->course.size() && wall_->course[k + 1].from <= pieces_.from();
+    if (!isOver && wall_->course[k].from < pieces_.to()) {
+      const MotionRates rates = boundsOf(wall_->course[k].motion);
+      wall.speed = std::max(wall.speed, rates.speed);
+      wall.acceleration = std::max(wall.acceleration, rates.acceleration);
+      wall.angularSpeed = std::max(wall.angularSpeed, rates.angularSpeed);
+      wall.angularAcceleration = std::max(wall.angularAcceleration, rates.angularAcceleration);
+      ++parts;
+    }
+  }
+  const double speed = bounds.place.rate + wall.speed;
+  const double distance =
+      (box.at(pieces_.from()).pose.position - wallMotion(*wall_, pieces_.from()).pose.position).norm() +
+      (pieces_.to() - pieces_.from()) * speed;
+  const double spin = bounds.spin + wall.angularSpeed;
+  const double turning = wall.angularSpeed * wall.angularSpeed + wall.angularAcceleration;
+  return {.rate = speed + wall.angularSpeed * distance + spin * radius,
+          .bend = parts > 1 ? std::numeric_limits<double>::infinity()
+                            : bounds.place.bend + wall.acceleration + 2 * wall.angularSpeed * speed +
+                                  turning * distance +
+                                  (spin * spin + bounds.angularVelocity.rate + turning) * radius};
+}
+
 // The gap of boxes changes no faster than their points move towards each other. That of separating axes is
 // not larger, and 0 where it is.
 RateBounds Pair::bounds() const {
   if (wall_ != nullptr) {
-    return boundsFromWall();
+    return wall_->course.empty() ? boundsFromWall() : boundsFromDriven();
   }
   double speed = 0;
   double turning = 0;
@@ -102,9 +135,12 @@ double Pair::leastGap(const RateBounds& bounds) const {
   };
   const MovingBody& box = pieces_[0];
   if (wall_ != nullptr) {
-    const double nearer = std::min(wall_->normal.dot(centerOf(box, pieces_.from())),
-                                   wall_->normal.dot(centerOf(box, pieces_.to())));
-    return nearer - wall_->offset - radiusOf(*box.body) - bounds.bend * width * width / 8;
+    const auto above = [&](double time) {
+      const WallPlane plane = planeAt(*wall_, time);
+      return plane.normal.dot(centerOf(box, time)) - plane.offset;
+    };
+    const double nearer = std::min(above(pieces_.from()), above(pieces_.to()));
+    return nearer - radiusOf(*box.body) - bounds.bend * width * width / 8;
   }
   const double time = pieces_.from() + 0.5 * width;
   return (centerOf(box, time) - centerOf(pieces_[1], time)).norm() - radiusOf(*box.body) -

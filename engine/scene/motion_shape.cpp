@@ -38,10 +38,16 @@ void readOscillation(const JsonValue& value, PrescribedMotion& into) {
   into.phase = object.number("phase", anyNumber("rad"), 0);
 }
 
+JsonObject motionObject(const JsonValue& motion) {
+  return motion.object({"path", "velocity", "angular_velocity", "about", "oscillation"});
+}
+
 }  // namespace
 
+bool hasPath(const JsonValue& motion) { return motionObject(motion).has("path"); }
+
 Course readMotion(const JsonValue& motion, const std::optional<JsonValue>& position, const Pose& pose) {
-  const JsonObject object = motion.object({"path", "velocity", "angular_velocity", "about", "oscillation"});
+  const JsonObject object = motionObject(motion);
   PrescribedMotion prescribed;
   Pose home = pose;
   if (const std::optional<JsonValue> path = object.find("path")) {
@@ -65,7 +71,7 @@ Course readMotion(const JsonValue& motion, const std::optional<JsonValue>& posit
   prescribed.about = home.position;
   if (const std::optional<JsonValue> about = object.find("about")) {
     if (prescribed.angularVelocity.isZero(0) && prescribed.swing.isZero(0)) {
-      about->failAs("a point that the box would turn about", "an angular_velocity or angular_amplitude too");
+      about->failAs("a point that it would turn about", "an angular_velocity or angular_amplitude too");
     }
     prescribed.about = about->vector(anyNumber("m"));
   }

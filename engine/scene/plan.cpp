@@ -219,10 +219,18 @@ PlanItem belts(const Scene& scene, const Needs& needs) {
 }
 
 PlanItem courses(const Scene& scene) {
-  const auto count = static_cast<std::size_t>(std::count_if(
-      scene.boxes.begin(), scene.boxes.end(), [](const SceneBox& box) { return !box.course.empty(); }));
-  return count == 0 ? leftOut("motions", "no fixed box moves by itself")
-                    : modelled("motions", counted(count, "fixed box that moves", "fixed boxes that move"));
+  const auto moving = [](const auto& all) {
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [](const auto& each) { return !each.course.empty(); }));
+  };
+  const std::size_t boxes = moving(scene.boxes);
+  const std::size_t walls = moving(scene.walls);
+  const std::string ofBoxes = counted(boxes, "fixed box that moves", "fixed boxes that move");
+  const std::string ofWalls = counted(walls, "wall that moves", "walls that move");
+  return boxes + walls == 0 ? leftOut("motions", "no fixed box moves by itself")
+                            : modelled("motions", walls == 0   ? ofBoxes
+                                                  : boxes == 0 ? ofWalls
+                                                               : ofBoxes + " and " + ofWalls);
 }
 
 PlanItem resting(const Scene& scene, const Needs& needs) {
@@ -347,7 +355,11 @@ World assemble(const Scene& scene, const Plan& plan) {
     requireMethod(scene, &MethodTraits::belts, "surfaces that move");
   }
   if (plan.models("motions")) {
-    requireMethod(scene, &MethodTraits::belts, "fixed boxes that move");
+    requireMethod(scene, &MethodTraits::belts,
+                  std::any_of(scene.boxes.begin(), scene.boxes.end(),
+                              [](const SceneBox& box) { return !box.course.empty(); })
+                      ? "fixed boxes that move"
+                      : "walls that move");
   }
   if (!scene.gravityChanges.empty()) {
     requireMethod(scene, &MethodTraits::gravityChanges, "gravity that changes");
@@ -396,7 +408,7 @@ Stage stageOf(const Scene& scene) {
     stage.room = *scene.room;
   }
   for (const Wall& wall : scene.walls) {
-    stage.planes.push_back({.normal = wall.normal, .offset = wall.offset});
+    stage.planes.push_back({.normal = wall.normal, .offset = wall.offset, .course = wall.course});
   }
   takeSounds(scene, stage);
   for (std::size_t body = 0; body < scene.boxes.size(); ++body) {

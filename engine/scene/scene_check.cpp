@@ -181,34 +181,43 @@ void checkPath(const JsonTree& tree, const JsonNode& motion, const std::string& 
 }
 
 // By itself moves only what nothing else does, and what a run can follow.
-void checkMotions(const JsonTree& tree, const Scene& scene) {
+void checkMotion(const JsonTree& tree, const JsonNode& node, const JsonNode& motion, const std::string& path,
+                 const std::string& name, const Driven& driven, double duration) {
   constexpr double kMostTurns = 1e12;  // [rad] of phases in a run: beyond, doubles do not tell them
-  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
-    const JsonNode& node = elementOf(tree, "boxes", i);
-    const JsonNode* const motion = node.find("motion");
-    if (motion == nullptr) {
-      continue;
+  checkPath(tree, motion, path);
+  for (const char* const key : {"surface_velocity", "surface_spin"}) {
+    if (const JsonNode* const surface = node.find(key)) {
+      tree.fail(surface->offset, std::string(key) + " for " + name + ", which has a motion", "one of them");
     }
-    const std::string name = inQuotes(scene.boxes[i].name);
-    if (!scene.boxes[i].fixed) {
-      tree.fail(motion->offset, "motion for box " + name + ", which is not fixed",
+  }
+  const double turning = std::max(boundsOf(driven).angularSpeed, driven.rate);
+  if (turning * duration > kMostTurns) {
+    tree.fail(motion.offset,
+              "a motion of " + name + " that turns or swings by " + brief(turning * duration) +
+                  " rad in the run",
+              "1e12 rad or less");
+  }
+}
+
+void checkMotions(const JsonTree& tree, const Scene& scene) {
+  const auto check = [&](const char* list, std::size_t i, const std::string& name, const Course& course) {
+    const JsonNode& node = elementOf(tree, list, i);
+    if (const JsonNode* const motion = node.find("motion")) {
+      checkMotion(tree, node, *motion, std::string(list) + "[" + std::to_string(i) + "].motion.path", name,
+                  course.front().motion, scene.settings.duration);
+    }
+  };
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    const SceneBox& box = scene.boxes[i];
+    const JsonNode* const motion = elementOf(tree, "boxes", i).find("motion");
+    if (motion != nullptr && !box.fixed) {
+      tree.fail(motion->offset, "motion for box " + inQuotes(box.name) + ", which is not fixed",
                 "it for fixed boxes only: others move as forces make them");
     }
-    checkPath(tree, *motion, "boxes[" + std::to_string(i) + "].motion.path");
-    for (const char* const key : {"surface_velocity", "surface_spin"}) {
-      if (const JsonNode* const surface = node.find(key)) {
-        tree.fail(surface->offset, std::string(key) + " for box " + name + ", which has a motion",
-                  "one of them");
-      }
-    }
-    const MotionRates rates = boundsOf(scene.boxes[i].course.front().motion);
-    const double turning = std::max(rates.angularSpeed, scene.boxes[i].course.front().motion.rate);
-    if (turning * scene.settings.duration > kMostTurns) {
-      tree.fail(motion->offset,
-                "a motion of box " + name + " that turns or swings by " +
-                    brief(turning * scene.settings.duration) + " rad in the run",
-                "1e12 rad or less");
-    }
+    check("boxes", i, "box " + inQuotes(box.name), box.course);
+  }
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    check("walls", i, "wall " + inQuotes(scene.walls[i].name), scene.walls[i].course);
   }
 }
 

@@ -54,14 +54,23 @@ SurfaceMotion readSurface(const JsonObject& object, const Vec3& axis, const Vec3
 }
 
 Wall readWall(const JsonValue& value, std::size_t index, Scene& scene) {
-  const JsonObject object = value.object(
-      {"name", "point", "normal", "restitution", "friction", "surface_velocity", "surface_spin", "material"});
+  const JsonObject object = value.object({"name", "point", "normal", "restitution", "friction",
+                                          "surface_velocity", "surface_spin", "material", "motion"});
   Wall wall{.name = object.name("wall-" + std::to_string(index)),
             .normal = object.require("normal").direction(),
             .material = readMaterial(object)};
-  const Vec3 point = object.require("point").vector(anyNumber("m"));
-  wall.offset = dot(wall.normal, point);
-  wall.material.surface = readSurface(object, wall.normal, point);
+  const std::optional<JsonValue> motion = object.find("motion");
+  const std::optional<JsonValue> given = object.find("point");
+  Pose home;
+  if (given || !motion || !hasPath(*motion)) {
+    home.position = object.require("point").vector(anyNumber("m"));
+  }
+  wall.offset = dot(wall.normal, home.position);
+  if (motion) {
+    wall.course = readMotion(*motion, given, home);
+    wall.offset = planeAt(wall, 0).offset;
+  }
+  wall.material.surface = readSurface(object, wall.normal, home.position);
   scene.wallSounds.push_back(readSound(object));
   return wall;
 }

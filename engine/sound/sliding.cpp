@@ -36,10 +36,14 @@ Vec3 velocityAt(const Trajectory& run, const std::vector<BodyState>& states, std
 }
 
 // [m/s] Of a, along the contact and as seen from b.
-Vec3 slipOf(const Trajectory& run, const std::vector<BodyState>& states, const ContactPush& push) {
+Vec3 slipOf(const Trajectory& run, const std::vector<BodyState>& states, double time,
+            const ContactPush& push) {
   Vec3 slip = velocityAt(run, states, static_cast<std::size_t>(push.a.value), push.point, push.normal);
   if (push.b->isWall()) {
-    slip -= run.world.walls[push.b->wall()].material.surface.along(push.normal, push.point);
+    const Wall& wall = run.world.walls[push.b->wall()];
+    const Kinematics moves = wallMotion(wall, time);
+    slip -= wall.material.surface.along(push.normal, push.point) +
+            moves.velocityAt(push.point - moves.pose.position);
   } else {
     slip -= velocityAt(run, states, static_cast<std::size_t>(push.b->body()), push.point, push.normal);
   }
@@ -53,7 +57,7 @@ Slide slideAt(const Trajectory& run, const ForceSamples& forces, double time, co
     if (!push.b) {
       continue;
     }
-    const Vec3 slip = slipOf(run, states, push);
+    const Vec3 slip = slipOf(run, states, time, push);
     const double power = std::max(0.0, -dot(push.force, slip));
     const double distance = std::max(0.1, (push.point - eye).norm());
     const double pressure =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "core/math/linear_algebra.h"
+#include "physics/world/course.h"
 #include "stage/camera.h"
 #include "stage/color.h"
 #include "stage/picture_settings.h"
@@ -26,10 +28,24 @@ struct RoomShape {
   std::array<bool, 6> open{};  ///< no wall on this side; order of kRoomSides
 };
 
-/// Points x with normal·x = offset, visible from where normal·x is greater.
+/// Points x with normal·x = offset, visible from where normal·x is greater. One that moves by itself has a
+/// frame, as a Wall has.
 struct Plane {
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit
   double offset = 0;            ///< [m]
+  Course course = {};
+
+  /// Its frame at a moment [s]; of one that is still, the world's.
+  Pose frameAt(double time) const { return course.empty() ? Pose{} : partAt(course, time).at(time).pose; }
+  /// Where it is at a moment [s].
+  Plane at(double time) const {
+    if (course.empty()) {
+      return *this;
+    }
+    const Pose frame = frameAt(time);
+    const Vec3 now = frame.worldFromBody * normal;
+    return {.normal = now, .offset = dot(now, frame.position)};
+  }
 };
 
 /// How a run is shown. Walls are drawn whether or not anything that moves can hit them.
@@ -48,6 +64,12 @@ struct Stage {
   std::vector<SoundMaterial> boxSounds;   ///< of the boxes; empty: all are of wood
   std::vector<SoundMaterial> wallSounds;  ///< of the walls, those of the room first; empty: all are of stone
   std::string shownAs;  ///< hash of the scene whose camera and light these are; empty: the run's own
+
+  /// Whether a wall moves by itself.
+  bool hasMovingPlanes() const {
+    return std::any_of(planes.begin(), planes.end(),
+                       [](const Plane& plane) { return !plane.course.empty(); });
+  }
 };
 
 }  // namespace careen

@@ -45,7 +45,7 @@ class OwnMethod : public Contestant {
       return "no gravity that changes";
     }
     if (!traits_.belts && hasCourses(world)) {
-      return "no fixed boxes that move";
+      return "no " + whatHasCourses(world) + " that move";
     }
     if (!traits_.belts && hasBelts(world)) {
       return "no surfaces that move";

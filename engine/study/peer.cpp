@@ -11,7 +11,7 @@ namespace careen {
 
 std::string refusalOfPeers(const World& world) {
   return !world.gravityChanges.empty()          ? "no gravity that changes"
-         : hasCourses(world)                    ? "no fixed boxes that move"
+         : hasCourses(world)                    ? "no " + whatHasCourses(world) + " that move"
          : hasBelts(world)                      ? "no surfaces that move"
          : world.springs.empty() && !world.drag ? ""
                                                 : "no springs, no drag";

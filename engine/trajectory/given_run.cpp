@@ -78,7 +78,8 @@ class Giving {
   Trajectory run() {
     if (hasCourses(run_.world)) {
       throw InputError(table_.name +
-                       ": its scene has fixed boxes that move; expected one whose fixed boxes are still");
+                       ": its scene has " + whatHasCourses(run_.world) +
+                       " that move; expected one whose fixed boxes and walls are still");
     }
     gather();
     setDuration();

@@ -177,12 +177,21 @@ ImpactMoment impactMoment(const Trajectory& run, int index) {
 PointVelocities pointVelocities(const Impact& impact, const std::vector<StruckBody>& bodies,
                                 const World& world) {
   PointVelocities velocities;
+  const auto addDriven = [&](const Course& course, double sign) {
+    if (!course.empty()) {
+      const Kinematics driven = partAt(course, impact.time).at(impact.time);
+      const Vec3 velocity = sign * driven.velocityAt(impact.point - driven.pose.position);
+      velocities.before += velocity;
+      velocities.after += velocity;
+    }
+  };
   const auto add = [&](int index, double sign) {
     const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const StruckBody& struck) {
       return struck.body == static_cast<std::size_t>(index);
     });
-    if (found == bodies.end()) {
-      return;  // it cannot move
+    if (found == bodies.end()) {  // no impulse moves it
+      addDriven(world.bodies[static_cast<std::size_t>(index)].course, sign);
+      return;
     }
     const MassProperties& mass = world.bodies[found->body].mass;
     const auto at = [&](const BodyState& state) -> Vec3 {
@@ -193,7 +202,9 @@ PointVelocities pointVelocities(const Impact& impact, const std::vector<StruckBo
     velocities.after += at(found->after);
   };
   add(impact.a.value, 1);
-  if (!impact.b.isWall()) {
+  if (impact.b.isWall()) {
+    addDriven(world.walls[impact.b.wall()].course, -1);
+  } else {
     add(impact.b.body(), -1);
   }
   const Vec3 surface = pairOf(impact, world).surface.along(impact.normal, impact.point);

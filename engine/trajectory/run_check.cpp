@@ -271,6 +271,7 @@ void checkWorld(const World& world) {
     const std::string owner = "a wall '" + wall.name + "'";
     checkWall(wall.normal, wall.offset, owner);
     checkMaterial(wall.material, owner);
+    checkCourse(wall.course, owner);
   }
   for (const Spring& spring : world.springs) {
     checkSpring(spring, world.bodies.size());
@@ -389,6 +390,7 @@ void checkStage(const Stage& stage, std::size_t bodies) {
   }
   for (const Plane& plane : stage.planes) {
     checkWall(plane.normal, plane.offset, "a wall to be drawn");
+    checkCourse(plane.course, "a wall to be drawn");
   }
   checkCamera(stage, bodies);
   checkTimeMap(stage.timeMap);

@@ -21,7 +21,7 @@ namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kFileMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 15;
+constexpr std::uint64_t kVersion = 16;
 constexpr std::uint64_t kVersionWithoutCrowds = 4;  // the oldest that is read
 constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
@@ -33,6 +33,7 @@ constexpr std::uint64_t kVersionOfOneGravity = 11;  // and of surfaces that are 
 constexpr std::uint64_t kVersionOfOneBox = 12;      // for each body
 constexpr std::uint64_t kVersionWithoutCourses = 13;
 constexpr std::uint64_t kVersionWithoutScenery = 14;
+constexpr std::uint64_t kVersionOfStillWalls = 15;
 
 // A run since format version 9.
 template <class Archive>
@@ -108,6 +109,23 @@ void visitRecord(Archive& archive, Visited<Archive, Trajectory> run, std::uint64
   if (version > kVersionWithoutScenery) {
     visitScenery(archive, run.stage);
   }
+  if (version > kVersionOfStillWalls) {
+    for (auto& wall : run.world.walls) {
+      visitAll(archive, wall.course);
+    }
+    for (auto& plane : run.stage.planes) {
+      visitAll(archive, plane.course);
+    }
+  }
+}
+
+// Older programs read runs without what they do not know.
+std::uint64_t versionOf(const Trajectory& run) {
+  const auto moves = [](const auto& each) { return !each.course.empty(); };
+  return std::any_of(run.world.walls.begin(), run.world.walls.end(), moves) ||
+                 std::any_of(run.stage.planes.begin(), run.stage.planes.end(), moves)
+             ? kVersion
+             : kVersionOfStillWalls;
 }
 
 /// What the file wraps: the record, packed, and the version of its format.
@@ -185,12 +203,13 @@ void writeTrajectory(const Trajectory& trajectory, const TextSink& sink) {
     sink(bytes);
   });
   file.bytes() += kFileMagic;
-  file.visit(kVersion);
+  const std::uint64_t version = versionOf(trajectory);
+  file.visit(version);
   ArchiveWriter record([&](std::string_view piece) {
     file.visit(static_cast<std::uint64_t>(piece.size()));
     file.visit(compressed(piece));
   });
-  visitRecord(record, trajectory, kVersion);
+  visitRecord(record, trajectory, version);
   record.visit(trajectory.stateHash());
   record.handOn();
   file.handOn();

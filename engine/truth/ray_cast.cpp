@@ -101,6 +101,9 @@ class Caster {
   // A pixel is inside if it is on the inner side of the planes through the eye and each edge. Two surfaces
   // that share an edge have the same plane there, so that no pixel is between them.
   void cast(const Surface& surface, std::size_t index) {
+    if (surface.outline.empty()) {
+      return;
+    }
     const double distance = surface.normal.dot(rays_.eye() - surface.outline.front());
     if (!(distance > 0)) {
       return;

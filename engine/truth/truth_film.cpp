@@ -52,13 +52,15 @@ Json surfacesJson(const Trajectory& run, const std::vector<Surface>& surfaces) {
   Json walls = Json::array();
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const Surface& surface = surfaces[i];
-    Json wall = {{"id", run.world.bodies.size() + i + 1},
-                 {"normal", jsonOf(surface.normal)},
-                 {"offset", surface.normal.dot(surface.outline.front())}};
+    const double offset =
+        surface.normal.dot(surface.outline.empty() ? surface.origin : surface.outline.front());
+    Json wall = {
+        {"id", run.world.bodies.size() + i + 1}, {"normal", jsonOf(surface.normal)}, {"offset", offset}};
     for (const Wall& each : run.world.walls) {
-      const double offset = surface.normal.dot(surface.outline.front());
-      if (each.normal.dot(surface.normal) > 1 - 1e-12 &&
-          std::abs(each.offset - offset) <= 1e-9 * std::max(1.0, std::abs(offset))) {
+      const WallPlane plane = planeAt(each, 0);
+      if (plane.normal.dot(surface.normal) > 1 - 1e-12 &&
+          std::abs(plane.offset - offset) <= 1e-9 * std::max(1.0, std::abs(offset)) &&
+          each.course.empty() == (surface.plane < 0)) {
         wall["name"] = each.name;
         wall["restitution"] = each.material.restitution;
         wall["friction"] = each.material.friction;
@@ -122,6 +124,23 @@ Json impactsJson(const Trajectory& run, const TruthFrames& truth) {
   return impacts;
 }
 
+// Where those are that move by themselves.
+void addMovedWalls(const Trajectory& run, const TruthFrames& truth, double filmTime, Json& frame) {
+  if (!run.stage.hasMovingPlanes()) {
+    return;
+  }
+  Json moved = Json::array();
+  const std::vector<Surface> surfaces = truth.surfaces(filmTime);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (surfaces[i].plane >= 0) {
+      moved.push_back({{"id", run.world.bodies.size() + i + 1},
+                       {"normal", jsonOf(surfaces[i].normal)},
+                       {"offset", surfaces[i].normal.dot(surfaces[i].origin)}});
+    }
+  }
+  frame["walls"] = std::move(moved);
+}
+
 std::string truthJson(const Trajectory& run, const TruthFrames& truth, const TruthSettings& settings,
                       const std::vector<std::int64_t>& frames) {
   const PictureSettings& picture = run.stage.picture;
@@ -137,6 +156,7 @@ std::string truthJson(const Trajectory& run, const TruthFrames& truth, const Tru
          {"eye", jsonOf(rays.eye())},
          {"world_from_camera", jsonOf(rays.worldFromCamera())},
          {"matrix", {{focal, 0, 0.5 * picture.width}, {0, focal, 0.5 * picture.height}, {0, 0, 1}}}});
+    addMovedWalls(run, truth, time, poses.back());
   }
   const Json whole = {{"program", settings.program},
                       {"scene", run.stage.name},
@@ -147,7 +167,7 @@ std::string truthJson(const Trajectory& run, const TruthFrames& truth, const Tru
                       {"channels", settings.channels.text()},
                       {"gravity", jsonOf(run.world.gravity)},
                       {"boxes", boxesJson(run)},
-                      {"walls", surfacesJson(run, truth.surfaces())},
+                      {"walls", surfacesJson(run, truth.surfaces(0))},
                       {"frames", std::move(poses)},
                       {"impacts", impactsJson(run, truth)}};
   return whole.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -23,13 +23,14 @@ class PixelLabels {
  public:
   PixelLabels(const ChannelSet& channels, const PixelRays& now, const PixelRays& next,
               std::span<const CastBox> boxesNow, std::span<const CastBox> boxesNext,
-              std::span<const Surface> surfaces)
+              std::span<const Surface> surfaces, std::span<const Surface> surfacesNext)
       : channels_(channels),
         now_(now),
         next_(next),
         boxesNow_(boxesNow),
         boxesNext_(boxesNext),
-        surfaces_(surfaces) {}
+        surfaces_(surfaces),
+        surfacesNext_(surfacesNext) {}
 
   void label(const CastPicture& cast, std::vector<ZipEntry>& entries) {
     const auto height = static_cast<std::size_t>(now_.height());
@@ -80,6 +81,12 @@ class PixelLabels {
     }
   }
 
+  // The same point of a wall that moves, later.
+  static Vec3 movedWith(const Surface& from, const Surface& to, const Vec3& point) {
+    const Vec3 arm = point - from.origin;
+    return to.origin + from.across.dot(arm) * to.across + from.along.dot(arm) * to.along;
+  }
+
   void labelPixel(const CastPicture& cast, int x, int y, std::size_t place) {
     const Vec3 along = now_.offset(x, y);
     const double depth = cast.depth[place];
@@ -111,8 +118,14 @@ class PixelLabels {
       if (!normal_.empty()) {
         put(normal_, place, (face % 2 == 0 ? -1.0 : 1.0) * pose.worldFromBody.col(face / 2));
       }
-    } else if (!normal_.empty()) {
-      put(normal_, place, surfaces_[instance - boxesNow_.size()].normal);
+    } else {
+      const Surface& surface = surfaces_[instance - boxesNow_.size()];
+      if (!normal_.empty()) {
+        put(normal_, place, surface.normal);
+      }
+      if (surface.plane >= 0) {
+        later = movedWith(surface, surfacesNext_[instance - boxesNow_.size()], point);
+      }
     }
     if (!coordinates_.empty()) {
       put(coordinates_, place, point);
@@ -132,6 +145,7 @@ class PixelLabels {
   std::span<const CastBox> boxesNow_;
   std::span<const CastBox> boxesNext_;
   std::span<const Surface> surfaces_;
+  std::span<const Surface> surfacesNext_;
   std::vector<float> depth_;
   std::vector<float> distance_;
   std::vector<float> normal_;
@@ -212,8 +226,13 @@ TruthFrames::TruthFrames(const Trajectory& run)
     : run_(run),
       clock_(run.stage.timeMap.within(run.settings.duration)),
       path_(run, clock_, run.stage.picture.aspect()),
-      surfaces_(surfacesOf(run.stage, extentOf(run), {}, wallReachesOf(run))) {
+      extent_(extentOf(run)),
+      reaches_(wallReachesOf(run)) {
   checkLabels(run);
+}
+
+std::vector<Surface> TruthFrames::surfaces(double filmTime) const {
+  return surfacesOf(run_.stage, extent_, {}, reaches_, clock_.sceneTime(filmTime));
 }
 
 PixelRays TruthFrames::rays(double filmTime) const {
@@ -236,7 +255,7 @@ std::vector<CastBox> TruthFrames::boxesAt(double filmTime) const {
 }
 
 CastPicture TruthFrames::cast(double filmTime) const {
-  return castRays(rays(filmTime), boxesAt(filmTime), surfaces_);
+  return castRays(rays(filmTime), boxesAt(filmTime), surfaces(filmTime));
 }
 
 std::string TruthFrames::encode(std::int64_t frame, const ChannelSet& channels) const {
@@ -245,9 +264,10 @@ std::string TruthFrames::encode(std::int64_t frame, const ChannelSet& channels) 
   const double next = rate.frameTime(frame + 1);
   const PixelRays raysNow = rays(time);
   const std::vector<CastBox> boxes = boxesAt(time);
-  const CastPicture cast = castRays(raysNow, boxes, surfaces_);
+  const std::vector<Surface> surfacesNow = surfaces(time);
+  const CastPicture cast = castRays(raysNow, boxes, surfacesNow);
   std::vector<ZipEntry> entries;
-  PixelLabels(channels, raysNow, rays(next), boxes, boxesAt(next), surfaces_).label(cast, entries);
+  PixelLabels(channels, raysNow, rays(next), boxes, boxesAt(next), surfacesNow, surfaces(next)).label(cast, entries);
   if (channels.has(TruthChannel::kVisibility)) {
     addVisibility(cast, entries);
   }

@@ -44,7 +44,8 @@ class TruthFrames {
 
   double duration() const { return clock_.duration(); }  ///< [s] of the film
   const TimeMap& clock() const { return clock_; }
-  const std::vector<Surface>& surfaces() const { return surfaces_; }
+  /// Where they are at a moment of the film [s]; of walls that move some may be outside.
+  std::vector<Surface> surfaces(double filmTime) const;
   PixelRays rays(double filmTime) const;
   /// What the pixels of the moment show.
   CastPicture cast(double filmTime) const;
@@ -57,7 +58,8 @@ class TruthFrames {
   const Trajectory& run_;
   TimeMap clock_;
   CameraPath path_;
-  std::vector<Surface> surfaces_;
+  Extent extent_;
+  std::vector<WallReach> reaches_;
 };
 
 }  // namespace careen

@@ -13,9 +13,11 @@ void include(Extent& extent, const Vec3& point, double radius) {
   extent.max = extent.max.cwiseMax(point + Vec3::Constant(radius));
 }
 
-bool isBehindAWall(const Stage& stage, const Vec3& point) {
-  return std::any_of(stage.planes.begin(), stage.planes.end(),
-                     [&](const Plane& wall) { return wall.normal.dot(point) < wall.offset; });
+bool isBehindAWall(const Stage& stage, const Vec3& point, double time) {
+  return std::any_of(stage.planes.begin(), stage.planes.end(), [&](const Plane& each) {
+    const Plane wall = each.at(time);
+    return wall.normal.dot(point) < wall.offset;
+  });
 }
 
 void includeFlight(Extent& extent, const RunSetup& setup, const Body& box) {
@@ -34,7 +36,7 @@ void includeFlight(Extent& extent, const RunSetup& setup, const Body& box) {
     gained += gain;
     before = time;
     const Vec3 point = box.initial.pose.position + time * box.initial.velocity + fallen;
-    if (sample > 0 && (isImmovable(box.mass) || isBehindAWall(setup.stage, point))) {
+    if (sample > 0 && (isImmovable(box.mass) || isBehindAWall(setup.stage, point, time))) {
       return;
     }
     include(extent, point, radius);

@@ -39,24 +39,36 @@ Surface roomSide(const RoomShape& room, std::size_t side, const Materials& mater
   return surface;
 }
 
-// A square in the wall's plane, large enough to cover the extent, clipped to the extent.
-Surface slab(const Plane& wall, const Extent& extent, const Materials& materials) {
+Vec3 footOf(const Plane& wall, const Vec3& point) {
+  return point - (wall.normal.dot(point) - wall.offset) * wall.normal;
+}
+
+// A square in the wall's plane, large enough to cover the extent, clipped to the extent. What is on a wall
+// that moves goes with it.
+Surface slab(const Plane& plane, const Extent& extent, const Materials& materials, double time) {
+  const Plane wall = plane.at(time);
+  const Plane home = plane.at(0);
   Surface surface;
   surface.normal = wall.normal;
-  std::tie(surface.across, surface.along) = directionsOn(wall.normal);
-  const Vec3 centre = extent.centre();
-  surface.origin = centre - (wall.normal.dot(centre) - wall.offset) * wall.normal;
+  std::tie(surface.across, surface.along) = directionsOn(plane, time);
+  const Vec3 middle = footOf(wall, extent.centre());
+  surface.origin = middle;
+  if (!plane.course.empty()) {
+    const Pose from = plane.frameAt(0);
+    surface.origin = plane.frameAt(time).worldPoint(from.worldFromBody.transpose() *
+                                                    (footOf(home, extent.centre()) - from.position));
+  }
   const double reach = 2 * extent.radius();
   const Vec3 across = reach * surface.across;
   const Vec3 along = reach * surface.along;
-  surface.outline = {surface.origin - across - along, surface.origin + across - along,
-                     surface.origin + across + along, surface.origin - across + along};
+  surface.outline = {middle - across - along, middle + across - along, middle + across + along,
+                     middle - across + along};
   for (int axis = 0; axis < 3; ++axis) {
     surface.outline = clipped(surface.outline, Vec3::Unit(axis), extent.min[axis]);
     surface.outline = clipped(surface.outline, -Vec3::Unit(axis), -extent.max[axis]);
   }
   surface.covering = Covering::kTiles;
-  surface.color = isLevel(wall.normal) ? materials.floor : materials.slab;
+  surface.color = isLevel(home.normal) ? materials.floor : materials.slab;
   return surface;
 }
 
@@ -114,7 +126,7 @@ double tileSize(const Extent& extent) {
 }
 
 std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const Materials& materials,
-                                std::span<const WallReach> reaches) {
+                                std::span<const WallReach> reaches, double time) {
   std::vector<Surface> surfaces;
   if (stage.room) {
     for (std::size_t side = 0; side < kRoomSides.size(); ++side) {
@@ -130,11 +142,17 @@ std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const 
     reach = {.min = extent.min - margin, .max = extent.max + margin};
   }
   for (std::size_t wall = 0; wall < stage.planes.size(); ++wall) {
-    Surface surface = slab(stage.planes[wall], reach, materials);
+    Surface surface = slab(stage.planes[wall], reach, materials, time);
     if (wall < reaches.size()) {
       extend(surface, reaches[wall], extent.radius());
     }
-    if (surface.outline.size() >= 3) {
+    if (surface.outline.size() < 3) {
+      surface.outline.clear();
+    }
+    if (!stage.planes[wall].course.empty()) {
+      surface.plane = static_cast<int>(wall);
+    }
+    if (!surface.outline.empty() || surface.plane >= 0) {
       surfaces.push_back(std::move(surface));
     }
   }

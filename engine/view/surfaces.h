@@ -28,6 +28,7 @@ struct Surface {
   Covering covering = Covering::kPlain;
   Vec3 color = Vec3::Ones();  ///< linear
   double fade = 0;            ///< [m] from the end of a rectangle, where it fades into the background; 0: not
+  int plane = -1;             ///< index of the stage's plane if that moves by itself: the outline may be empty
 };
 
 /// The part of a convex outline where normal·x >= offset.
@@ -37,8 +38,8 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& outline, const Vec3& normal, 
 double tileSize(const Extent& extent);
 
 /// Floor and walls: the room's closed sides, and the part of every other wall within the extent and, if it is
-/// told, as far as boxes go along it.
+/// told, as far as boxes go along it. Walls that move by themselves are where they are at that time [s].
 std::vector<Surface> surfacesOf(const Stage& stage, const Extent& extent, const Materials& materials = {},
-                                std::span<const WallReach> reaches = {});
+                                std::span<const WallReach> reaches = {}, double time = 0);
 
 }  // namespace careen

@@ -15,6 +15,15 @@ std::pair<Vec3, Vec3> directionsOn(const Vec3& normal) {
   return {across, normal.cross(across)};
 }
 
+std::pair<Vec3, Vec3> directionsOn(const Plane& wall, double time) {
+  const auto [across, along] = directionsOn(wall.at(0).normal);
+  if (wall.course.empty()) {
+    return {across, along};
+  }
+  const Mat3 turned = wall.frameAt(time).worldFromBody * wall.frameAt(0).worldFromBody.transpose();
+  return {turned * across, turned * along};
+}
+
 void WallReach::add(const Vec2& place, double radius) {
   const Vec2 low = place.array() - radius;
   const Vec2 high = place.array() + radius;
@@ -35,13 +44,15 @@ std::vector<WallReach> wallReachesOf(const Trajectory& run) {
   std::vector<WallReach> reaches(walls.size());
   for (std::size_t moment = 0; moment < moments; ++moment) {
     const double part = static_cast<double>(moment) / static_cast<double>(moments - 1);
-    const std::vector<Pose> poses = run.poses(clock.sceneTime(part * clock.duration()));
+    const double time = clock.sceneTime(part * clock.duration());
+    const std::vector<Pose> poses = run.poses(time);
     for (std::size_t body = 0; body < poses.size(); ++body) {
       const Vec3& at = poses[body].position;
       const double radius = run.world.bodies[body].halfExtents.norm();
       for (std::size_t wall = 0; wall < walls.size(); ++wall) {
-        if (walls[wall].normal.dot(at) - walls[wall].offset < near + radius) {
-          const auto [across, along] = directionsOn(walls[wall].normal);
+        const Plane plane = walls[wall].at(time);
+        if (plane.normal.dot(at) - plane.offset < near + radius) {
+          const auto [across, along] = directionsOn(walls[wall], time);
           reaches[wall].add(Vec2(across.dot(at), along.dot(at)), radius);
         }
       }

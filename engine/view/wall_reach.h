@@ -12,6 +12,8 @@ namespace careen {
 bool isLevel(const Vec3& normal);
 /// Horizontal and upward directions on a wall; on a level one, x and y up to their signs.
 std::pair<Vec3, Vec3> directionsOn(const Vec3& normal);
+/// The same of a wall at a moment [s]: of one that moves by itself those of its start, turned with it.
+std::pair<Vec3, Vec3> directionsOn(const Plane& wall, double time);
 
 /// Bounds of places on a wall [m], in world coordinates along its two directions; empty if min > max.
 struct WallReach {

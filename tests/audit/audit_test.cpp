@@ -269,6 +269,21 @@ TEST(Audit, findsABoxThatFallsThroughAFloor) {
                met + 0.01});
 }
 
+// A wall of 0.5 m/s takes a box along from 1.8 s on; one of 0.625 m/s would be 0.25 m past its face at 2 s.
+TEST(Audit, findsABoxBehindAWallThatMoves) {
+  Trajectory run = runOf(R"({"careen": 1, "duration": 2,
+    "walls": [{"name": "press", "point": [-1, 0, 0], "normal": [1, 0, 0], "motion": {"velocity": [0.5, 0, 0]}}],
+    "boxes": [{"name": "box", "half_extents": [0.1, 0.1, 0.1], "mass": 1, "position": [0, 0, 0]}]})");
+  EXPECT_TRUE(audit(run, AuditDepth::kFull).breaches.empty());
+  for (CoursePart& part : run.world.walls[0].course) {
+    part.motion.velocity *= 1.25;
+  }
+  const Audit found = audit(run, AuditDepth::kFull);
+  const AuditBreach* const behind = breachOf(found, AuditKind::kWallOverlap);
+  ASSERT_NE(behind, nullptr) << textOf(found, run);
+  EXPECT_NEAR(behind->largest, 0.25, 1e-9);
+}
+
 TEST(Audit, findsMomentumThatNothingGave) {
   expectFound({kThree,
                [](Trajectory& run) { flight(run, 2, 0).acceleration = Vec3(1e-7, 0, 0); },

@@ -109,7 +109,7 @@ TEST(Overlap, aWallIsMeasuredFromTheLowestCorner) {
       lowest =
           std::min(lowest, wall.normal.dot(box.pose.worldPoint(corner(box.halfExtents, k))) - wall.offset);
     }
-    EXPECT_NEAR(separationOf(box, wall), lowest, 1e-14);
+    EXPECT_NEAR(separationOf(box, planeAt(wall, 0)), lowest, 1e-14);
   }
 }
 
@@ -126,7 +126,7 @@ TEST(Overlap, ofBodiesOfSeveralBoxesIsThatOfTheNearest) {
   EXPECT_NEAR(separationOf(cross, Pose{}, bar, {.position = Vec3(0.15, 0, 0.5)}), -0.05, 1e-15);
   EXPECT_NEAR(separationOf(bar, {.position = Vec3(0.5, 0, 0.15)}, cross, Pose{}), -0.05, 1e-15);
   const Wall floor{.name = "floor", .normal = Vec3::UnitZ(), .offset = -0.7, .material = {}};
-  EXPECT_NEAR(separationOf(cross, Pose{}, floor), 0.2, 1e-15);
+  EXPECT_NEAR(separationOf(cross, Pose{}, planeAt(floor, 0)), 0.2, 1e-15);
   int inside = 0;
   for (int k = 0; k < 200; ++k) {
     const AuditBox place = random.box();

@@ -81,6 +81,20 @@ TEST(LibraryMotion, turnsAboutItsMiddleOrAPoint) {
   EXPECT_NEAR(simulate(Scene(1.0).add(door)).state(0, 1).position[0], -1, 1e-14);
 }
 
+// A wall has the same: a floor that goes up by 1 m in 2 s, and what stands on it.
+TEST(LibraryMotion, wallsMoveToo) {
+  Scene scene(2.0);
+  Wall floor;
+  floor.motion = Motion{.path = {{0, {0, 0, 0}}, {2, {0, 0, 1}}}};
+  scene.add(floor);
+  scene.add(Box{.name = "load", .halfExtents = {0.1, 0.1, 0.1}, .mass = 1, .position = {0, 0, 0.1}});
+  const v1::Run run = simulate(scene);
+  EXPECT_NEAR(run.state(0, 1).position[2], 0.6, 1e-14);
+  EXPECT_EQ(simulate(Scene::parse(scene.text())).hash(), run.hash());
+  floor.motion = Motion{};
+  EXPECT_THROW(static_cast<void>(simulate(Scene(1.0).add(floor))), SceneError);
+}
+
 // What a scene file may not say is refused alike.
 TEST(LibraryMotion, isCheckedAsInFiles) {
   const auto messageOf = [](const Box& box) {

@@ -207,7 +207,7 @@ bool isTrueAt(const Trajectory& run, const Question& question, double time) {
     const Partner other = question.of[1];
     const double gap =
         other.isWall()
-            ? separationOf(own, state.pose, run.world.walls[other.wall()])
+            ? separationOf(own, state.pose, planeAt(run.world.walls[other.wall()], time))
             : separationOf(own, state.pose, run.world.bodies[static_cast<std::size_t>(other.body())],
                            run.state(static_cast<std::size_t>(other.body()), time).pose);
     return (gap <= touchingGaps(run).usual) == (question.kind == Question::Kind::kTouches);

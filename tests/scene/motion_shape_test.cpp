@@ -81,6 +81,52 @@ TEST(MotionShape, refusesWhatIsNone) {
   }
 }
 
+std::string sceneOfWall(const std::string& wall) {
+  return R"({ "careen": 1, "duration": 1, "boxes": [ { "half_extents": [1, 1, 1], "mass": 1, "position": [0, 0, 9] } ],
+              "walls": [ { "normal": [0, 0, 2], )" +
+         wall + " } ] }";
+}
+
+// Its frame has its origin at the point.
+TEST(MotionShape, isOfWallsToo) {
+  const Wall turning =
+      parseScene(sceneOfWall(R"("point": [1, 2, 3], "motion": { "angular_velocity": [0, 1, 0] })"), "f")
+          .walls[0];
+  EXPECT_EQ(turning.offset, 3);
+  EXPECT_EQ(planeAt(turning, 0).normal, Vec3::UnitZ());
+  const WallPlane turned = planeAt(turning, 1.57079632679489662);
+  EXPECT_LT((turned.normal - Vec3::UnitX()).norm(), 1e-15);
+  EXPECT_NEAR(turned.offset, 1, 1e-15);
+  const Scene going =
+      parseScene(sceneOfWall(R"("motion": { "path": [[0.25, 1, 2, 3], [0.5, 1, 2, 4]] })"), "f");
+  EXPECT_EQ(planeAt(going.walls[0], 0).offset, 3);
+  EXPECT_EQ(planeAt(going.walls[0], 0.375).offset, 3.5);
+  EXPECT_EQ(planeAt(going.walls[0], 2).offset, 4);
+}
+
+TEST(MotionShape, refusesWhatIsNoneOfAWall) {
+  struct Bad {
+    std::string wall;
+    std::string error;
+  };
+  const std::vector<Bad> all = {
+      {R"("motion": { "velocity": [1, 0, 0] })", "found no point in walls[0]"},
+      {R"("point": [0, 0, 0], "motion": {})", "found no motion for walls[0].motion"},
+      {R"("point": [0, 0, 1], "motion": { "path": [[1, 0, 0, 0]] })",
+       "expected none, as the motion's path tells it, or that of its first point"},
+      {R"("point": [0, 0, 0], "motion": { "path": [[1, 0, 0, 0], [1, 0, 0, 1]] })",
+       "for walls[0].motion.path[1][0], expected a time after that of the point before"},
+      {R"("point": [0, 0, 0], "surface_spin": 1, "motion": { "velocity": [1, 0, 0] })",
+       R"(found surface_spin for wall "wall-0", which has a motion)"},
+      {R"("point": [0, 0, 0], "motion": { "angular_velocity": [1e13, 0, 0] })",
+       R"(found a motion of wall "wall-0" that turns)"}};
+  for (const Bad& bad : all) {
+    const std::string error = inputErrorOf([&] { parseScene(sceneOfWall(bad.wall), "f"); });
+    EXPECT_NE(error.find(bad.error), std::string::npos) << error;
+    EXPECT_EQ(error.rfind("f:", 0), 0U) << error;
+  }
+}
+
 TEST(MotionShape, nothingIsTiedToWhatMoves) {
   const std::string boxes = R"({ "careen": 1, "duration": 1, "boxes": [
       { "name": "lift", "half_extents": [1, 1, 1], "fixed": true, "motion": { "velocity": [1, 0, 0] } },

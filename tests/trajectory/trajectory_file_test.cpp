@@ -373,10 +373,28 @@ TEST(TrajectoryFile, aMinuteOfABouncingBoxTakesLessThan50kB) {
   EXPECT_LT(encodeTrajectory(trajectory).size(), 50'000U);  // measured 34,101, with 241 impacts
 }
 
+// And only a run that has such walls is of the version that knows them.
+TEST(TrajectoryFile, keepsHowWallsMove) {
+  Trajectory run = driftAndReturn();
+  EXPECT_EQ(encodeTrajectory(run)[8], 15);
+  const Course course = courseOf({.path = {{0, Vec3::Zero()}, {0.5, Vec3::UnitX()}},
+                                  .angularVelocity = Vec3(0, 0, 2),
+                                  .about = Vec3(50, 1, 0)},
+                                 {.position = Vec3(50, 0, 0)});
+  run.world.walls.push_back({.name = "door", .normal = Vec3::UnitX(), .material = {}, .course = course});
+  run.stage.planes.push_back({.normal = Vec3::UnitX(), .course = course});
+  const std::string bytes = encodeTrajectory(run);
+  EXPECT_EQ(bytes[8], 16);
+  const Trajectory back = decodeTrajectory(bytes, "run.careen");
+  EXPECT_EQ(back.world.walls.back().course, course);
+  EXPECT_EQ(back.stage.planes.back().course, course);
+  EXPECT_EQ(encodeTrajectory(back), bytes);
+}
+
 TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
-  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 15: a newer careen wrote it"),
-                                        std::pair('\3', "3, expected 4 to 15: simulate its scene again")}) {
+  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 16: a newer careen wrote it"),
+                                        std::pair('\3', "3, expected 4 to 16: simulate its scene again")}) {
     bytes[8] = version;
     EXPECT_EQ(messageOf(withRightChecksum(bytes)),
               "run.careen: this trajectory file has format version " + std::string(remedy));

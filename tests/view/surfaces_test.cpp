@@ -28,6 +28,30 @@ TEST(Surfaces, roomHasItsClosedSidesOnly) {
   }
 }
 
+// What is drawn of a wall that moves is where it is then, within the scene; its tiles go with it.
+TEST(Surfaces, ofAWallThatMovesAreWhereItIs) {
+  Stage stage;
+  stage.planes = {{.normal = Vec3::UnitZ(),
+                   .course = courseOf({.path = {},
+                                       .velocity = Vec3(0.5, 0, 0.25),
+                                       .angularVelocity = Vec3(0, 0.5, 0),
+                                       .about = Vec3::Zero()},
+                                      {})}};
+  const Extent extent{.min = Vec3::Constant(-2), .max = Vec3::Constant(2)};
+  const Surface first = surfacesOf(stage, extent).at(0);
+  const Surface then = surfacesOf(stage, extent, {}, {}, 0.5).at(0);
+  EXPECT_EQ(then.plane, 0);
+  const Plane plane = stage.planes[0].at(0.5);
+  EXPECT_LT((then.normal - Vec3(std::sin(0.25), 0, std::cos(0.25))).norm(), 1e-15);
+  for (const Vec3& corner : then.outline) {
+    EXPECT_NEAR(plane.normal.dot(corner), plane.offset, 1e-14);
+  }
+  EXPECT_GT(areaAlong(then, then.normal), 16);
+  EXPECT_LT((then.origin - (Vec3(0.25, 0, 0.125) + first.origin)).norm(), 1e-15);
+  EXPECT_NEAR(then.across.dot(then.normal), 0, 1e-15);
+  EXPECT_NEAR(std::abs(then.across.dot(first.across)), std::cos(0.25), 1e-15);
+}
+
 // Anticlockwise from inside: the area along the normal is the side's own, and positive.
 TEST(Surfaces, sidesFaceInwardWithTheirWholeArea) {
   Scene scene = crateInRoom();

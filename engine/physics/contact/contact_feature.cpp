@@ -322,7 +322,9 @@ ContactState stateOfNormal(const ContactFeature& feature, const Kinematics& a, T
   }
   const Vec3 arm = a.pose.worldFromBody * feature.onA;
   if (feature.kind == ContactFeature::Kind::kPointOnWall) {
-    ContactState state = onPlane(arm, a, nullptr, boxB.halfSpace->normal, boxB.halfSpace->offset);
+    const WallPlane plane = planeOf(*boxB.halfSpace, b.pose);
+    ContactState state =
+        b.isDriven ? onPlane(arm, a, &b, plane.normal, 0) : onPlane(arm, a, nullptr, plane.normal, plane.offset);
     state.beyond = -std::numeric_limits<double>::infinity();
     return state;
   }

@@ -157,7 +157,7 @@ bool isSame(const ContactFeature& x, const ContactFeature& y);
 /// Whether the features include that corner of a body at that half-space.
 bool hasCorner(std::span<const ContactFeature> features, const ContactFeature& corner);
 
-/// Eq. 13 and its derivative; n rotates with b's face, or with both edges. Half-spaces do not move.
+/// Eq. 13 and its derivative; n rotates with b's face, or with both edges.
 ///
 /// In a cone n is the mean of the two directions that it had in each body's frame when the contact began,
 /// perpendicular to the edge on which the contact can move: the bodies carry it half way each, so it stays

@@ -44,6 +44,12 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
     const TouchingBody& each = bodies_[i];
     places_.push_back(each.isHeld() ? kHeld : movers_.size());
     isDriven_ = isDriven_ || each.isDriven();
+    isCarried_ =
+        isCarried_ || (each.isDriven() &&
+                       (each.isBox() || std::any_of(features_.begin(), features_.end(),
+                                                    [&](const ContactFeature& feature) {
+                                                      return feature.b == static_cast<int>(i);
+                                                    })));
     kinematics_[i].pose = {each.position, each.worldFromBody.toRotationMatrix()};
     if (!each.isHeld()) {
       movers_.push_back(i);

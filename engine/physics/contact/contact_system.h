@@ -14,19 +14,19 @@
 
 namespace careen {
 
-/// Calls visit(feature, half-space) for the corners of a box, if it is not held, at those half-spaces of its
-/// group for which isNear(half-space).
+/// Calls visit(feature) for the corners of a box, if it is not held, at those half-spaces of its group for
+/// which isNear(index).
 template <class IsNear, class Visit>
 void forCorners(std::span<const TouchingBody> bodies, std::size_t box, const IsNear& isNear,
                 const Visit& visit) {
   for (std::size_t b = bodies[box].isHeld() ? bodies.size() : boxesOf(bodies); b < bodies.size(); ++b) {
-    if (!bodies[b].isNowhere() && isNear(*bodies[b].halfSpace)) {
+    if (!bodies[b].isNowhere() && isNear(b)) {
       ContactFeature feature{.a = static_cast<int>(box),
                              .b = static_cast<int>(b),
                              .material = touching(bodies[box].material(), bodies[b].material())};
       for (int k = 0; k < bodies[box].body->cornerCount(); ++k) {
         feature.onA = corner(*bodies[box].body, k);
-        visit(feature, *bodies[b].halfSpace);
+        visit(feature);
       }
     }
   }
@@ -53,8 +53,9 @@ class ContactSystem {
                 std::span<const ContactFeature> joints = {});
 
   const std::vector<TouchingBody>& bodies() const { return bodies_; }
-  /// Whether any of them is driven.
+  /// Whether any of them is driven; and whether any box is, or a wall that a feature is at.
   bool isDriven() const { return isDriven_; }
+  bool isCarried() const { return isCarried_; }
   const std::vector<ContactFeature>& features() const { return features_; }
   /// Ends of joints that are open, as slack ropes.
   const std::vector<ContactFeature>& openEnds() const { return openEnds_; }
@@ -148,6 +149,7 @@ class ContactSystem {
   double radius_ = 0;
   double pull_ = 0;
   bool isDriven_ = false;
+  bool isCarried_ = false;
 };
 
 }  // namespace careen

@@ -69,8 +69,8 @@ void EventFunctions::listContacts() {
 
 void EventFunctions::listCorners() {
   for (std::size_t i = 0; i < system_.bodies().size(); ++i) {
-    const auto isNear = [](const Wall&) { return true; };
-    forCorners(system_.bodies(), i, isNear, [&](const ContactFeature& corner, const Wall&) {
+    const auto isNear = [](std::size_t) { return true; };
+    forCorners(system_.bodies(), i, isNear, [&](const ContactFeature& corner) {
       if (!hasCorner(system_.features(), corner)) {
         functions_.push_back({.kind = EventFunction::Kind::kCorner,
                               .contact = i,
@@ -149,8 +149,8 @@ double EventFunctions::valueOf(const EventFunction& event) const {
              event.margin;
     }
     case EventFunction::Kind::kCorner: {
-      const Wall& wall = wallOf(event);
-      return cornerGap(system_.kinematics(c).pose, event.corner, wall.normal, wall.offset) + event.margin;
+      const WallPlane plane = planeFor(event);
+      return cornerGap(system_.kinematics(c).pose, event.corner, plane.normal, plane.offset) + event.margin;
     }
     case EventFunction::Kind::kOpenEnd:
       return system_.stateOf(system_.openEnds()[c]).gap + event.margin;
@@ -190,7 +190,17 @@ double EventFunctions::rateOf(const EventFunction& event) const {
   const EventFunction& corner = event;
   const Kinematics& at = system_.kinematics(corner.contact);
   const Vec3 arm = at.pose.worldFromBody * corner.corner;
-  return dot(wallOf(corner).normal, at.velocity + at.angularVelocity.cross(arm));
+  const Vec3 velocity = at.velocity + at.angularVelocity.cross(arm);
+  const Kinematics& wall = system_.kinematics(static_cast<std::size_t>(corner.halfSpace));
+  const Vec3& normal = planeFor(corner).normal;
+  return dot(normal, wall.isDriven
+                         ? Vec3(velocity - wall.velocityAt(at.pose.position + arm - wall.pose.position))
+                         : velocity);
+}
+
+WallPlane EventFunctions::planeFor(const EventFunction& corner) const {
+  const auto index = static_cast<std::size_t>(corner.halfSpace);
+  return planeOf(*system_.bodies()[index].halfSpace, system_.kinematics(index).pose);
 }
 
 bool EventFunctions::hasTension() const {

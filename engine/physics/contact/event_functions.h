@@ -82,9 +82,8 @@ class EventFunctions {
     return static_cast<std::size_t>(system_.features()[contact].b);
   }
 
-  const Wall& wallOf(const EventFunction& corner) const {
-    return *system_.bodies()[static_cast<std::size_t>(corner.halfSpace)].halfSpace;
-  }
+  /// Of the half-space of a corner.
+  WallPlane planeFor(const EventFunction& corner) const;
 
   const ContactSystem& system_;
   std::vector<EventFunction> functions_;

@@ -26,12 +26,18 @@ ImpactContact impactContactOf(const ContactFeature& feature, const ContactState&
           .joint = joint};
 }
 
-void FoundContacts::addCorners(std::size_t body, const Pose& pose) {
-  const auto isNear = [&](const Wall& wall) {
-    return gapToPlane(boxAt(pose, group_.body(body)), wall.normal, wall.offset) <= closed_;
+void FoundContacts::addCorners(std::size_t body, const std::vector<Pose>& poses) {
+  const Pose& pose = poses[body];
+  const auto planeFor = [&](std::size_t wall) {
+    return planeOf(*group_.bodies()[wall].halfSpace, poses[wall]);
   };
-  forCorners(group_.bodies(), body, isNear, [&](const ContactFeature& feature, const Wall& wall) {
-    if (cornerGap(pose, feature.onA, wall.normal, wall.offset) <= closed_) {
+  const auto isNear = [&](std::size_t wall) {
+    const WallPlane plane = planeFor(wall);
+    return gapToPlane(boxAt(pose, group_.body(body)), plane.normal, plane.offset) <= closed_;
+  };
+  forCorners(group_.bodies(), body, isNear, [&](const ContactFeature& feature) {
+    const WallPlane plane = planeFor(static_cast<std::size_t>(feature.b));
+    if (cornerGap(pose, feature.onA, plane.normal, plane.offset) <= closed_) {
       features_.push_back(feature);
     }
   });
@@ -71,7 +77,7 @@ void FoundContacts::find(const GroupState& at, double slow) {
     poses.push_back(body.pose());
   }
   for (std::size_t i = 0; i < group_.boxes(); ++i) {
-    addCorners(i, poses[i]);
+    addCorners(i, poses);
     for (std::size_t j = i + 1; j < group_.boxes(); ++j) {
       if (group_.mayMeet(i, j, at, closed_)) {
         addBetween(i, j, poses, at, slow);

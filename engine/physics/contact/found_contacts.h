@@ -47,7 +47,7 @@ class FoundContacts {
   ImpactContact impactAt(std::size_t contact) const;
 
  private:
-  void addCorners(std::size_t body, const Pose& pose);
+  void addCorners(std::size_t body, const std::vector<Pose>& poses);
   int indexOf(const ContactFeature& feature) const;
   void addBetween(std::size_t a, std::size_t b, const std::vector<Pose>& poses, const GroupState& at,
                   double slow);

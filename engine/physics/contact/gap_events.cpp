@@ -42,7 +42,7 @@ void GapEvents::list(const FoundContacts& contacts, const GroupState& start, dou
                                                             : 2 * h * (speed + h * acceleration) + closed_);
   }
   for (std::size_t i = 0; i < group_.boxes(); ++i) {
-    listCorners(contacts, start, i, reach[i]);
+    listCorners(contacts, start, i, reach[i], h);
     for (std::size_t j = i + 1; j < group_.boxes(); ++j) {
       if (group_.mayMeet(i, j, start, reach[i] + reach[j])) {
         listPairs(i, j, start);
@@ -64,11 +64,20 @@ void GapEvents::listPairs(std::size_t a, std::size_t b, const GroupState& start)
 
 // Those of a body's corners that a half-space may stop and that are no contacts.
 void GapEvents::listCorners(const FoundContacts& contacts, const GroupState& start, std::size_t body,
-                            double reach) {
-  const auto isNear = [&](const Wall& wall) {
-    return dot(wall.normal, start[body].position) - wall.offset <= radiusOf(group_.body(body)) + reach;
+                            double reach, double h) {
+  const double radius = radiusOf(group_.body(body));
+  const auto isNear = [&](std::size_t wall) {
+    const Pose frame = start[wall].pose();
+    const WallPlane plane = planeOf(*group_.bodies()[wall].halfSpace, frame);
+    double within = radius + reach;
+    if (group_.isDriven(wall)) {
+      const Kinematics at = group_.kinematics(wall, start[wall]);
+      within += 2 * h * (at.velocityAt(start[body].position - frame.position).norm() +
+                         at.angularVelocity.norm() * within);
+    }
+    return dot(plane.normal, start[body].position) - plane.offset <= within;
   };
-  forCorners(group_.bodies(), body, isNear, [&](const ContactFeature& feature, const Wall&) {
+  forCorners(group_.bodies(), body, isNear, [&](const ContactFeature& feature) {
     if (!contacts.has(feature)) {
       add({.kind = Kind::kFeature, .feature = feature}, start);
     }
@@ -208,8 +217,13 @@ GapEvents::Bounds GapEvents::boundsOn(const Event& event, const GroupPath& path)
   };
   add(event.a());
   add(event.b());
-  bounds.curvature = linear + (group_.bodies()[event.b()].isBox() ? 2 * spin * speed + 2 * turning * lengths
-                                                                  : turning * lengths);
+  const bool isBox = group_.bodies()[event.b()].isBox();
+  if (!isBox && group_.isDriven(event.b())) {  // its origin may be far from the body
+    const GroupState& start = path.step().start;
+    lengths += (start[event.a()].position - start[event.b()].position).norm() + path.length() * speed;
+  }
+  bounds.curvature = linear + (isBox || group_.isDriven(event.b()) ? 2 * spin * speed + 2 * turning * lengths
+                                                                   : turning * lengths);
   return bounds;
 }
 

@@ -53,7 +53,8 @@ class GapEvents {
   };
 
   void listPairs(std::size_t a, std::size_t b, const GroupState& start);
-  void listCorners(const FoundContacts& contacts, const GroupState& start, std::size_t body, double reach);
+  void listCorners(const FoundContacts& contacts, const GroupState& start, std::size_t body, double reach,
+                   double h);
   void add(const Event& event, const GroupState& start);
   double least() const { return -0.5 * closed_; }  // [m] less is closed
   BoxAxes axesOf(const Event& pair, const GroupState& at) const;

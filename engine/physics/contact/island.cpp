@@ -49,6 +49,12 @@ double timeScaleOf(const World& world, double tolerance) {
       const MotionRates rates = boundsOf(part.motion);
       speed = std::max(speed, rates.speed + radius * rates.angularSpeed);
     }
+    for (const Wall& wall : world.walls) {
+      for (const CoursePart& part : wall.course) {
+        const MotionRates rates = boundsOf(part.motion);
+        speed = std::max(speed, rates.speed + radius * rates.angularSpeed);
+      }
+    }
     scale = speed > 0 ? std::min(scale, std::sqrt(tolerance * radius) / speed) : scale;
   }
   return std::min(scale, timeUnderSprings(world, tolerance));

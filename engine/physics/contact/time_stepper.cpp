@@ -82,6 +82,9 @@ double TimeStepper::longestStep() const {
     if (turning > 0) {
       most = std::min(most, kStepTurn / turning);
     }
+    if (!bodies_[i].isBox()) {
+      continue;  // it has no size
+    }
     if (speed > 0) {
       most = std::min(most, kMostWay * bodies_[i].body->thinnest() / speed);
       first = std::min(first, kFirst * radius / speed);

@@ -30,6 +30,8 @@ struct TouchingBody {
                    : TouchingShape{
                          .halfExtents = body->halfExtents, .center = body->boxCenter, .halfSpace = halfSpace};
   }
+  /// Of a half-space, where it is.
+  WallPlane plane() const { return planeOf(*halfSpace, kinematics().pose); }
   const Material& material() const { return isBox() ? body->material : halfSpace->material; }
   BodyState state() const {
     const Mat3 columns = worldFromBody.toRotationMatrix();

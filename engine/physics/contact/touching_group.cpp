@@ -39,7 +39,7 @@ GroupBody TouchingGroup::drivenFrom(const GroupState& from, std::size_t body, do
 }
 
 void TouchingGroup::drive(const GroupState& from, double h, GroupState& to) const {
-  for (std::size_t i = 0; i < boxes_; ++i) {
+  for (std::size_t i = 0; i < size(); ++i) {
     if (isDriven(i)) {
       to[i] = drivenFrom(from, i, h);
     }
@@ -104,7 +104,7 @@ ContactState TouchingGroup::contactAt(const ContactFeature& feature, const Group
 void TouchingGroup::contactsAt(std::span<const ContactFeature> features, const GroupState& state,
                                std::vector<ContactState>& contacts) {
   kinematics_.resize(size());
-  for (std::size_t i = 0; i < boxes(); ++i) {  // the others never move
+  for (std::size_t i = 0; i < size(); ++i) {
     kinematics_[i] = kinematics(i, state[i]);
   }
   contacts.clear();

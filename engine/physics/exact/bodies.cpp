@@ -227,6 +227,9 @@ void Bodies::sleep(int rank, const Instant& time, const Pose& pose) {
   Mover& body = (*this)[rank];
   begins(rank, time);
   body.rest(pose);
+  if (!body.isHeld()) {
+    body.wall = firstWall(body, walls(), end_);
+  }
   recorder_.moves(body.listed, time.hi, Rest{pose});
   account_.departs(static_cast<std::size_t>(body.listed.value), {.pose = pose});
 }
@@ -307,10 +310,15 @@ Doubt* Bodies::doubtAt(int rank, const Instant& time) {
 
 void Bodies::predict(int rank) {
   const Mover& body = (*this)[rank];
-  if (!body.moves()) {
+  if (!body.moves() || !body.isBox()) {
+    // Walls that are driven come to it, and a crowd sees to its members.
+    std::optional<Event> first = body.group ? std::nullopt : body.wall;
     const double change = changeAtRest(world_, changing_, body);
     if (std::isfinite(change)) {
-      queue_.set({.time = Instant(change), .kind = EventKind::kTouching, .body = rank});
+      takeSooner(first, Event{.time = Instant(change), .kind = EventKind::kTouching, .body = rank});
+    }
+    if (first) {
+      queue_.set(*first);
     } else {
       queue_.clear(rank);
     }
@@ -362,11 +370,16 @@ void Bodies::feelJump(const Instant& time) {
   timeScale_ = timeScaleOf(world_, tolerance_);
   longestStep_ = longestStepOf(world_);
   fastestAtZero_ = -std::numeric_limits<double>::infinity();
-  for (int rank = 0; rank < count(); ++rank) {
-    Mover& body = (*this)[rank];
-    const Course& course = body.body->course;
+  for (Mover& body : movers_) {
+    const int rank = body.rank;
+    const Course& course = body.course();
     const CoursePart* const part = course.empty() ? nullptr : &partAt(course, time.hi);
     if (part == nullptr || part->from != time.hi) {
+      continue;
+    }
+    if (!body.isBox()) {  // a run knows where it is by its course
+      begins(rank, time);
+      part->motion.moves() ? body.drive(*part) : body.rest(part->motion.at(0).pose);
       continue;
     }
     if (!part->motion.moves()) {

@@ -39,6 +39,9 @@ void ChangingWorld::findNextPart(double after) {
   for (const Body& body : world_.bodies) {
     nextPart_ = std::min(nextPart_, nextPart(body.course, after));
   }
+  for (const Wall& wall : world_.walls) {
+    nextPart_ = std::min(nextPart_, nextPart(wall.course, after));
+  }
 }
 
 void ChangingWorld::jump() {

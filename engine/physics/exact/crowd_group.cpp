@@ -19,8 +19,8 @@ std::size_t listedOf(const Mover& body) { return static_cast<std::size_t>(body.l
 
 }  // namespace
 
-CrowdGroup::CrowdGroup(Bodies& bodies)
-    : bodies_(bodies), crowd_(bodies.world(), bodies.crowds().tolerance, bodies.team()) {}
+CrowdGroup::CrowdGroup(Bodies& bodies, const Instant& time)
+    : bodies_(bodies), crowd_(bodies.world(), bodies.crowds().tolerance, bodies.team(), time.hi) {}
 
 bool CrowdGroup::enter(Encounter& encounter, int /*rank*/) {
   const auto self = std::static_pointer_cast<CrowdGroup>(shared_from_this());
@@ -51,7 +51,7 @@ void CrowdGroup::form(Bodies& bodies, const Encounter& encounter) {
     }
   }
   if (!crowd) {
-    crowd = std::make_shared<CrowdGroup>(bodies);
+    crowd = std::make_shared<CrowdGroup>(bodies, encounter.time);
   }
   for (const EncounterBody& body : encounter.bodies) {
     crowd->enlist(body.mover->rank, encounter.time, body.before, body.attitude);
@@ -86,6 +86,9 @@ void CrowdGroup::keepPlace(int rank, std::size_t place) {
   ranks_[place] = rank;
   joined_[place] = newPath(bodies_, rank);
   if (!bodies_[rank].isHeld()) {
+    if (bodies_[rank].wall) {  // it sees to that
+      bodies_.queue().clear(rank);
+    }
     bodies_[rank].group = shared_from_this();
     bodies_[rank].place = place;
     bodies_[rank].doubt.atLeast(bodies_.crowds().tolerance);
@@ -307,16 +310,7 @@ std::optional<Encounter> CrowdGroup::advance(const Instant& time) {
   commit(time);
   const std::vector<int> released = release(time);
   if (crowd_.atRest()) {
-    for (const int rank : ranks_) {
-      if (rank >= 0) {
-        bodies_[rank].group.reset();
-      }
-    }
-    for (const int rank : ranks_) {
-      if (rank >= 0 && bodies_[rank].isDriven()) {
-        bodies_.predict(rank);
-      }
-    }
+    letGo();
   } else {
     go(time);
   }
@@ -324,6 +318,27 @@ std::optional<Encounter> CrowdGroup::advance(const Instant& time) {
     bodies_.predict(rank);
   }
   return std::nullopt;
+}
+
+// All that it has rest; what is driven comes to them from now on.
+void CrowdGroup::letGo() {
+  for (const int rank : ranks_) {
+    if (rank >= 0) {
+      bodies_[rank].group.reset();
+    }
+  }
+  for (const int rank : ranks_) {
+    if (rank >= 0 && (bodies_[rank].isDriven() || bodies_[rank].wall)) {
+      bodies_.predict(rank);
+    }
+  }
+}
+
+bool CrowdGroup::isAnyDriven() const {
+  const auto isDriven = [&](int rank) { return rank >= 0 && bodies_[rank].isDriven(); };
+  return std::any_of(ranks_.begin(), ranks_.end(), isDriven) ||
+         std::any_of(bodies_.walls().begin(), bodies_.walls().end(),
+                     [](const Mover& wall) { return wall.isDriven(); });
 }
 
 // Ends its step now, perhaps early: then in more than one, if it needs shorter ones. Members who joined that
@@ -425,6 +440,9 @@ void CrowdGroup::go(const Instant& time) {
   bodies_.account().solvedCrowd(crowd_.takeResiduals());
   if (any && earlier(end(), bodies_.end())) {
     bodies_.queue().set({.time = end(), .kind = EventKind::kStep, .body = leader_});
+  }
+  if (!any && isAnyDriven()) {  // those that moved have left it: it takes no more steps
+    letGo();
   }
   for (const int rank : nearStep(bodies_, *this)) {
     bodies_.predict(rank);

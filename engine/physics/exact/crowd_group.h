@@ -16,7 +16,7 @@ namespace careen {
 /// go what nothing touches.
 class CrowdGroup final : public ContactGroup {
  public:
-  explicit CrowdGroup(Bodies& bodies);
+  CrowdGroup(Bodies& bodies, const Instant& time);
 
   /// The bodies of an encounter, and the crowds that they meet, are one crowd from there on.
   static void form(Bodies& bodies, const Encounter& encounter);
@@ -47,6 +47,8 @@ class CrowdGroup final : public ContactGroup {
   bool admitMet(const Instant& time, Taken taken);
   void joinStep(const Encounter& encounter);
   std::vector<int> release(const Instant& time);
+  void letGo();
+  bool isAnyDriven() const;
   // Their paths, to be recorded.
   double pastOf(const Mover& body, const Instant& time) const;
   std::vector<char> changedSuddenly() const;

@@ -62,7 +62,7 @@ void findJoints(const World& world, Encounter& encounter) {
 
 double pullOf(const Bodies& bodies, const Encounter& encounter) {
   double pull = bodies.world().gravity.norm();
-  for (const EncounterBody& body : encounter.boxes()) {
+  for (const EncounterBody& body : encounter.bodies) {
     if (body.mover->isDriven()) {
       pull = std::max(pull, drivenAcceleration(std::array{body.touching(encounter.time)}));
     }
@@ -149,16 +149,21 @@ Encounter gather(Bodies& bodies, const Event& event) {
   encounter.timeSteps = meetings > kMostSlowMeetings ? kTimeStepsOfMeeting : 0;
   encounter.cause = meetings > kMostMeetings ? EventKind::kTouching : event.kind;
   reach(bodies, event, encounter);
-  encounter.pull = pullOf(bodies, encounter);
+  for (const Mover& each : bodies.walls()) {
+    EncounterBody& wall = encounter.bodies.emplace_back();
+    wall.mover = &bodies[each.rank];
+    if (!each.course().empty()) {
+      wall.attitude = each.attitudeAt(event.time);
+      wall.before = each.stateAt(event.time, wall.attitude);
+    }
+  }
   for (EncounterBody& body : encounter.bodies) {
     body.after = body.before;
-  }
-  for (std::size_t w = 0; w < bodies.walls().size(); ++w) {
-    encounter.bodies.emplace_back().mover = &bodies[bodies.count() + static_cast<int>(w)];
   }
   if (endsInWorld(bodies.world())) {
     encounter.bodies.emplace_back().mover = &bodies[bodies.count() + static_cast<int>(bodies.walls().size())];
   }
+  encounter.pull = pullOf(bodies, encounter);
   findJoints(bodies.world(), encounter);
   return encounter;
 }

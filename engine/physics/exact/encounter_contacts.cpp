@@ -103,7 +103,7 @@ double findContacts(const Bodies& bodies, Encounter& encounter) {
     if (!body.mover->isHeld()) {
       deepest = std::max(deepest,
                          addWallContacts(bodies.world(), body.body(), body.before.pose, static_cast<int>(i),
-                                         static_cast<int>(boxes), encounter.contacts));
+                                         static_cast<int>(boxes), encounter.contacts, encounter.time.hi));
     }
     for (std::size_t j = i + 1; j < boxes; ++j) {
       addPairContacts(bodies.world(), bodies.tolerance(), encounter, i, j);

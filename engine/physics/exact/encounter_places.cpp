@@ -43,12 +43,13 @@ void addJoints(const Encounter& encounter, Features& features) {
 // Adds corners that have reached or passed a wall.
 void addCorners(const Encounter& encounter, Features& features) {
   const std::vector<TouchingBody> bodies = touchingOf(encounter);
-  const auto isNear = [](const Wall&) { return true; };
+  const auto isNear = [](std::size_t) { return true; };
   for (std::size_t i = 0; i < boxesOf(bodies); ++i) {
     const EncounterBody& body = encounter.bodies[i];
     const double within = kAligned * touchingWithin(body.box());
-    forCorners(bodies, i, isNear, [&](const ContactFeature& corner, const Wall& wall) {
-      if (cornerGap(body.before.pose, corner.onA, wall.normal, wall.offset) <= within &&
+    forCorners(bodies, i, isNear, [&](const ContactFeature& corner) {
+      const WallPlane plane = bodies[static_cast<std::size_t>(corner.b)].plane();
+      if (cornerGap(body.before.pose, corner.onA, plane.normal, plane.offset) <= within &&
           !hasCorner(features, corner)) {
         features.push_back(corner);
         features.back().material = {};  // places are aligned without friction

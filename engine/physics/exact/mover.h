@@ -49,6 +49,7 @@ struct Mover {
   Neighbors::Crossing crossing;  ///< the next such event
 
   bool isHeld() const { return body->mass.inverseMass == 0; }
+  const Course& course() const { return isBox() ? body->course : halfSpace->course; }
   bool isBox() const { return halfSpace == nullptr; }
   bool flies() const { return kind == Kind::kFlies; }
   bool steps() const { return kind == Kind::kSteps; }

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/error.h"
+#include "physics/search/driven_wall.h"
 #include "physics/search/first_contact_search.h"
 #include "physics/search/time_of_impact.h"
 #include "physics/search/translating_contact.h"
@@ -49,8 +50,23 @@ bool moveAsOne(const Mover& a, const Mover& b) {
 
 namespace {
 
+FirstContact meetPlane(const MovingBox& box, const WallPlane& plane, double until) {
+  return box.angularSpeedBound == 0 ? firstContactTranslating(box, plane.normal, plane.offset, until)
+                                    : searchUntil(until, [&](const SearchWindow& window) {
+                                        return firstContactWithWall(box, plane.normal, plane.offset, window);
+                                      });
+}
+
+FirstContact meetDriven(const MovingBox& box, const DrivenWall& wall, double until) {
+  if (wall.isUniform()) {
+    return meetPlane(seenFrom(wall, box), {wall.normalAt(0), wall.offsetAt(0)}, until);
+  }
+  return searchUntil(until,
+                     [&](const SearchWindow& window) { return firstContactWithWall(box, wall, window); });
+}
+
 // Of one of its boxes with any wall, if it is before `until` [s] of the body's motion, which then is its
-// time.
+// time. What rests looks only for those that are driven.
 void meetWalls(const Mover& body, int index, std::span<const Mover> walls, double& until,
                std::optional<Event>& first) {
   const MovingBox box = body.moving(body.start, index);
@@ -58,25 +74,33 @@ void meetWalls(const Mover& body, int index, std::span<const Mover> walls, doubl
   std::size_t likely = 0;
   double soonest = kNever;
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    const double clear = sphereClearUntil(box, walls[w].halfSpace->normal, walls[w].halfSpace->offset);
+    if (walls[w].isDriven()) {
+      continue;
+    }
+    const WallPlane plane = planeOf(*walls[w].halfSpace, walls[w].pose);
+    const double clear = sphereClearUntil(box, plane.normal, plane.offset);
     if (clear > 0 && clear < soonest) {
       soonest = clear;
       likely = w;
     }
   }
   const auto meet = [&](std::size_t w) {
-    const Wall& wall = *walls[w].halfSpace;
-    const FirstContact contact = body.bounds.angularSpeed == 0
-                                     ? firstContactTranslating(box, wall.normal, wall.offset, until)
-                                     : searchUntil(until, [&](const SearchWindow& window) {
-                                         return firstContactWithWall(box, wall.normal, wall.offset, window);
-                                       });
+    const Mover& wall = walls[w];
+    if (!wall.isDriven() && !body.moves()) {
+      return;
+    }
+    const FirstContact contact =
+        wall.isDriven()
+            ? meetDriven(box, {wall.halfSpace->normal, wall.drivenBy->motion, wall.elapsed(body.start)},
+                         until)
+            : meetPlane(box, planeOf(*wall.halfSpace, wall.pose), until);
     if (contact.kind != ContactKind::kNone && (!first || contact.time < until)) {
       until = contact.time;
       first = {.time = instantAfter(body.start, contact.time),
                .kind = kindOf(contact),
                .body = body.rank,
-               .partner = walls[w].rank};
+               .partner = wall.rank,
+               .partnerMotion = wall.motion};
     }
   };
   for (std::size_t k = 0; k < walls.size(); ++k) {

@@ -65,12 +65,18 @@ void putDriven(PileBody& body, double time) {
   body.axes = body.attitude.toRotationMatrix();
 }
 
-PileBody pileBody(const Wall& wall) {
+PileBody pileBody(const Wall& wall, double time) {
   PileBody result;
   result.halfSpace = &wall;
   result.length = std::numeric_limits<double>::infinity();
   result.material = wall.material;
   result.drivenBy = &kStillPart;
+  if (!wall.course.empty()) {
+    const CoursePart& part = partAt(wall.course, time);
+    result.drivenBy = &part;
+    putDriven(result, time);
+    result.drivenBy = part.motion.moves() ? &part : &kStillPart;
+  }
   return result;
 }
 

@@ -19,6 +19,8 @@ struct PileBox {
   Mat3 axes = Mat3::Identity();     ///< of the box, in the world
 
   bool isBox() const { return halfSpace == nullptr; }
+  /// Of a half-space.
+  WallPlane plane() const { return planeOf(*halfSpace, {position, axes}); }
   /// [m] World: from the centre of mass to the middle of the box, and the middle's place.
   Vec3 boxArm() const { return center == nullptr ? Vec3(Vec3::Zero()) : Vec3(axes * *center); }
   Vec3 middle() const { return center == nullptr ? position : Vec3(position + axes * *center); }
@@ -76,9 +78,10 @@ auto withBoxes(const PileBody& a, int boxA, const PileBody& b, int boxB, const U
              : use(boxOf(a, boxA), boxOf(b, boxB));
 }
 
-/// `body`, or `wall`, must outlive it. A wall is held, and larger than any box.
+/// `body`, or `wall`, must outlive it. A wall is held, and larger than any box; one that moves by itself is so
+/// as from that time [s] on.
 PileBody pileBody(const Body& body, const BodyState& state);
-PileBody pileBody(const Wall& wall);
+PileBody pileBody(const Wall& wall, double time = 0);
 BodyState stateOf(const PileBody& body);
 
 /// Puts what is driven where it is at a time [s].

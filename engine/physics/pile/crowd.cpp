@@ -32,10 +32,31 @@ constexpr double kJoinedBend = 3;  // [1] times as much where it opens a joint, 
 constexpr double kLessBent = 0.85;
 constexpr double kMoreBent = 1.04;
 
+// As it moves where members are, relative to the size of the smallest of them.
+void addWall(const CrowdMembers& members, const PileBody& wall, double& fastest, double& bending) {
+  if (!wall.isDriven()) {
+    return;
+  }
+  const MotionRates rates = boundsOf(wall.drivenBy->motion);
+  double farthest = 0;
+  double speed = 0;
+  double smallest = wall.length;
+  for (const PileBody& body : members.bodies) {
+    if (body.isBox() && !body.absent && !body.held()) {
+      farthest = std::max(farthest, (body.position - wall.position).norm());
+      speed = std::max(speed, (body.velocity - wall.velocity).norm());
+      smallest = std::min(smallest, body.length);
+    }
+  }
+  fastest = std::max(fastest, (wall.velocity.norm() + farthest * wall.omega.norm()) / smallest);
+  const double turning = rates.angularSpeed * rates.angularSpeed + rates.angularAcceleration;
+  bending = std::max(bending, rates.acceleration + farthest * turning + 2 * rates.angularSpeed * speed);
+}
+
 }  // namespace
 
-Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team)
-    : members_(world, tolerance, std::move(team)),
+Crowd::Crowd(const World& world, double tolerance, std::shared_ptr<Team> team, double time)
+    : members_(world, tolerance, std::move(team), time),
       loads_(members_, memory_),
       contacts_(members_),
       articulations_(members_),
@@ -147,7 +168,9 @@ double Crowd::chooseLength() const {
   double bending = 0;  // [m/s²]
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const PileBody& body = members_[i];
-    if (!body.stays()) {
+    if (!body.isBox()) {
+      addWall(members_, body, fastest, bending);
+    } else if (!body.stays()) {
       const double times = articulations_.isJoined(static_cast<int>(i)) ? kJoinedBend : 1;
       fastest = std::max(fastest, (body.velocity.norm() + longest * members_.gravity) / body.length);
       bending = std::max(bending, times * body.radius * body.omega.squaredNorm());

@@ -65,8 +65,10 @@ class Crowd {
   using Extent = CrowdExtent;
   using Struck = CrowdBounces::Struck;
 
-  /// The steps of large crowds are shared among the team; nothing else depends on its size.
-  Crowd(const World& world, double tolerance, std::shared_ptr<Team> team = std::make_shared<Team>(1));
+  /// The steps of large crowds are shared among the team; nothing else depends on its size. `time` [s] is that
+  /// from which on walls are driven.
+  Crowd(const World& world, double tolerance, std::shared_ptr<Team> team = std::make_shared<Team>(1),
+        double time = 0);
 
   /// Adds a body of the world, by its index in it; returns its place. `past` [s] is that of JoinedSteps: how
   /// long its last step was; `part`: by what it is driven, if it is.

@@ -168,7 +168,8 @@ CrowdContacts::Looked CrowdContacts::lookAt(PilePair& pair, PileManifold& manifo
   }
   pair.apart = a.position - b.position;
   pair.turned = a.turned + b.turned;
-  pair.clear = manifold.separation - PileLengths::kReach * length;
+  // A wall that turns comes nearer by more, the farther from its axis: one that is driven is always looked at.
+  pair.clear = b.isBox() || !b.isDriven() ? manifold.separation - PileLengths::kReach * length : 0;
   pair.until = a.path + b.path + pair.clear;
   return Looked::kFar;
 }

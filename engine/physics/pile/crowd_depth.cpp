@@ -65,7 +65,8 @@ double CrowdDepth::now(const PilePair& pair) const {
   }
   const double motion = b.isBox() ? relativeMotion(a, b, members_.h) + members_.ways[at(pair.a)].shifted +
                                         members_.ways[at(pair.b)].shifted
-                                  : a.path - members_.start[at(pair.a)].path;
+                                  : a.path - members_.start[at(pair.a)].path +
+                                        (b.isDriven() ? relativeMotion(a, b, members_.h) : 0);
   if (motion < members_.tolerance && !startedDeep(pair)) {
     return 0;
   }

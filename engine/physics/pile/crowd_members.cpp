@@ -5,7 +5,8 @@
 
 namespace careen {
 
-CrowdMembers::CrowdMembers(const World& inWorld, double toTolerance, std::shared_ptr<Team> withTeam)
+CrowdMembers::CrowdMembers(const World& inWorld, double toTolerance, std::shared_ptr<Team> withTeam,
+                           double from)
     : world(inWorld),
       team(std::move(withTeam)),
       tolerance(toTolerance),
@@ -14,7 +15,7 @@ CrowdMembers::CrowdMembers(const World& inWorld, double toTolerance, std::shared
       h(longestStep()),
       span(h) {
   for (std::size_t w = 0; w < world.walls.size(); ++w) {
-    add(pileBody(world.walls[w]), w);
+    add(pileBody(world.walls[w], from), w);
   }
 }
 

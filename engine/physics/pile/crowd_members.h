@@ -35,7 +35,8 @@ struct CrowdMembers {
     bool moved = false;
   };
 
-  CrowdMembers(const World& inWorld, double toTolerance, std::shared_ptr<Team> withTeam);
+  /// `from`: walls are driven as from that time [s] on.
+  CrowdMembers(const World& inWorld, double toTolerance, std::shared_ptr<Team> withTeam, double from = 0);
 
   std::size_t add(const PileBody& body, std::size_t index);
   void remove(std::size_t place);

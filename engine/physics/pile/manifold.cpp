@@ -244,7 +244,22 @@ void refreshOfBoxes(const PileBox& a, const PileBox& b, PileManifold& manifold) 
   }
 }
 
-void refreshAtWall(const PileBox& a, const Wall& wall, PileManifold& manifold) {
+// The plane's tangents turn with it.
+ContactFrame frameAt(const PileBox& wall, const WallPlane& plane) {
+  ContactFrame frame = frameOf(wall.halfSpace->normal);
+  if (!wall.halfSpace->course.empty()) {
+    frame.normal = plane.normal;
+    frame.tangent1 = wall.axes * frame.tangent1;
+    frame.tangent2 = wall.axes * frame.tangent2;
+  }
+  return frame;
+}
+
+void refreshAtWall(const PileBox& a, const PileBox& b, PileManifold& manifold) {
+  const WallPlane wall = b.plane();
+  if (!b.halfSpace->course.empty()) {
+    manifold.plane = frameAt(b, wall);
+  }
   const double height = gap(wall, a.position);
   const Vec3 toMiddle = a.boxArm();
   for (int k = 0; k < manifold.count; ++k) {
@@ -276,9 +291,10 @@ bool findPointsOfBoxes(const PileBox& a, const PileBox& b, double reach, PileMan
   return true;
 }
 
-bool findPointsAtWall(const PileBox& a, const Wall& wall, double reach, PileManifold& manifold) {
+bool findPointsAtWall(const PileBox& a, const PileBox& b, double reach, PileManifold& manifold) {
+  const WallPlane wall = b.plane();
   manifold.planeOfB = true;
-  manifold.plane = frameOf(wall.normal);
+  manifold.plane = frameAt(b, wall);
   const Vec3 up = a.axes.transpose() * wall.normal;
   const double height = gap(wall, a.middle());
   manifold.separation = height - dot(a.halfExtents, up.cwiseAbs());
@@ -291,7 +307,8 @@ bool findPointsAtWall(const PileBox& a, const Wall& wall, double reach, PileMani
   return manifold.separation <= reach;
 }
 
-double gapAtWall(const PileBox& a, const Wall& wall) {
+double gapAtWall(const PileBox& a, const PileBox& b) {
+  const WallPlane wall = b.plane();
   const Vec3 up = a.axes.transpose() * wall.normal;
   return gap(wall, a.middle()) - dot(a.halfExtents, up.cwiseAbs());
 }
@@ -304,7 +321,7 @@ bool buildManifold(const PileBox& a, const PileBox& b, double reach, PileManifol
   manifold.hasEdges = false;
   manifold.moved = 0;
   const bool found = b.isBox() ? findPointsOfBoxes(a, b, reach, manifold)
-                               : findPointsAtWall(a, *b.halfSpace, reach, manifold);
+                               : findPointsAtWall(a, b, reach, manifold);
   if (found) {
     refreshManifold(a, b, manifold);
     inherit(former, manifold);
@@ -316,15 +333,16 @@ void refreshManifold(const PileBox& a, const PileBox& b, PileManifold& manifold)
   if (b.isBox()) {
     refreshOfBoxes(a, b, manifold);
   } else {
-    refreshAtWall(a, *b.halfSpace, manifold);
+    refreshAtWall(a, b, manifold);
   }
 }
 
 double relativeMotion(const PileBody& a, const PileBody& b, double h) {
-  if (!b.isBox()) {
-    return a.ahead;
-  }
   const Vec3 apart = b.position - a.position;
+  if (!b.isBox()) {
+    return b.isDriven() ? a.ahead + h * ((b.velocity - b.omega.cross(apart)).norm() + a.radius * b.omega.norm())
+                        : a.ahead;
+  }
   const Vec3 slip = b.velocity - a.velocity - a.omega.cross(apart);
   const Vec3 spin = b.omega - a.omega;
   return h * (slip.cwiseAbs().sum() + b.radius * spin.cwiseAbs().sum());
@@ -332,17 +350,17 @@ double relativeMotion(const PileBody& a, const PileBody& b, double h) {
 
 double wayNearer(const PileBody& a, const PileBody& b, const Vec3& apart) {
   const Vec3 way = a.position - b.position - apart;
-  return b.isBox() ? way.norm() : std::abs(dot(b.halfSpace->normal, way));
+  return b.isBox() ? way.norm() : std::abs(dot(b.plane().normal, way));
 }
 
 double gapAbove(double least, int axis, const PileBox& a, const PileBox& b) {
-  return b.isBox() ? gapAboveOfBoxes(least, axis, a, b) : gapAtWall(a, *b.halfSpace);
+  return b.isBox() ? gapAboveOfBoxes(least, axis, a, b) : gapAtWall(a, b);
 }
 
 double overlapOf(const PileBox& a, const PileBox& b) {
   return std::max(
       0.0, b.isBox() ? -BoxAxes(a.axes, a.halfExtents, b.axes, b.halfExtents, a.middle() - b.middle()).gap()
-                     : -gapAtWall(a, *b.halfSpace));
+                     : -gapAtWall(a, b));
 }
 
 }  // namespace careen

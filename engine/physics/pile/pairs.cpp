@@ -215,10 +215,11 @@ void PilePairs::findPartners(std::span<const PileBody> bodies, int body) {
     return;
   }
   for (int w = 0; !bodies[at(w)].isBox(); ++w) {
-    const Wall& wall = *bodies[at(w)].halfSpace;
-    const Vec3& n = wall.normal;
+    const PileBody& wall = bodies[at(w)];
+    const WallPlane plane = wall.plane();
+    const Vec3& n = plane.normal;
     const Vec3 lowest = (n.array() > 0).select(box.low, box.high);
-    if (dot(n, lowest) <= wall.offset) {
+    if (wall.isDriven() || dot(n, lowest) <= plane.offset) {  // what is driven may come anywhere
       addFound(bodies[at(body)], body, bodies[at(w)], w);
     }
   }

@@ -203,10 +203,11 @@ class Parting {
       for (std::size_t w = 0; w < walls_.size() && ease_[i] > 0; ++w) {
         const LowestGap lowest = lowestGap(walls_[w], box);
         if (lowest.overlaps() && known_.insert({i, 0, boxes_.size() + w, 0}).second) {
-          const double centre = dot(walls_[w].normal, now_[i]);
+          const Vec3 normal = planeAt(walls_[w], 0).normal;
+          const double centre = dot(normal, now_[i]);
           barriers_.push_back({.a = i,
                                .b = boxes_.size() + w,
-                               .normal = walls_[w].normal,
+                               .normal = normal,
                                .least = centre - lowest.gap,
                                .lengths = lowest.lengths});
         }
@@ -329,7 +330,8 @@ PlacedBox placedBox(const Body& body, const Pose& pose) {
   return placed;
 }
 
-LowestGap lowestGap(const Wall& wall, const PlacedBox& placed) {
+LowestGap lowestGap(const Wall& atStart, const PlacedBox& placed) {
+  const WallPlane wall = planeAt(atStart, 0);
   LowestGap lowest{.gap = std::numeric_limits<double>::infinity()};
   for (int k = 0; k < placed.partCount(); ++k) {
     const BoxAt box = placed.at(k);

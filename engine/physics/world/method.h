@@ -20,7 +20,7 @@ struct MethodTraits {
   bool rests = false;  ///< bounces may come to rest
   bool joints = false;
   bool gravityChanges = false;
-  bool belts = false;  ///< surfaces that move along themselves, and fixed boxes that move
+  bool belts = false;  ///< surfaces that move along themselves, and fixed boxes and walls that move
 
   constexpr bool steps() const { return order > 0; }
 };

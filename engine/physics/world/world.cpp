@@ -21,8 +21,20 @@ bool hasBelts(const World& world) {
 }
 
 bool hasCourses(const World& world) {
-  return std::any_of(world.bodies.begin(), world.bodies.end(),
-                     [](const Body& body) { return !body.course.empty(); });
+  const auto moves = [](const auto& each) { return !each.course.empty(); };
+  return std::any_of(world.walls.begin(), world.walls.end(), moves) ||
+         std::any_of(world.bodies.begin(), world.bodies.end(), moves);
+}
+
+std::string whatHasCourses(const World& world) {
+  const auto moves = [](const auto& each) { return !each.course.empty(); };
+  const bool boxes = std::any_of(world.bodies.begin(), world.bodies.end(), moves);
+  const bool walls = std::any_of(world.walls.begin(), world.walls.end(), moves);
+  return boxes && walls ? "fixed boxes and walls" : walls ? "walls" : "fixed boxes";
+}
+
+Kinematics wallMotion(const Wall& wall, double time) {
+  return wall.course.empty() ? Kinematics{} : partAt(wall.course, time).at(time);
 }
 
 Vec3 gravityAt(const World& world, double time) {

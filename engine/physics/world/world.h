@@ -13,13 +13,33 @@
 
 namespace careen {
 
-/// Half-space obstacle: a point x is on the free side where normal·x > offset.
+/// What bounds a half-space: a point x is on the free side where normal·x > offset.
+struct WallPlane {
+  Vec3 normal = Vec3::UnitZ();  ///< [1] unit, points to the free side
+  double offset = 0;            ///< [m]
+};
+
+/// Half-space obstacle. One that moves by itself has a frame whose origin is on it, and in which its normal
+/// is `normal`; the axes are the world's at the start, but for its swinging. Its offset is not read then.
 struct Wall {
   std::string name;
   Vec3 normal = Vec3::UnitZ();  ///< [1] unit, points to the free side
   double offset = 0;            ///< [m]
   Material material;
+  Course course = {};  ///< of its frame, if it moves by itself
 };
+
+/// How a wall's frame moves at a moment [s]; that of one that is still is the world's.
+Kinematics wallMotion(const Wall& wall, double time);
+/// Where a wall is, given the pose of its frame; and at a moment [s].
+inline WallPlane planeOf(const Wall& wall, const Pose& pose) {
+  if (wall.course.empty()) {
+    return {wall.normal, wall.offset};
+  }
+  const Vec3 normal = pose.worldFromBody * wall.normal;
+  return {normal, dot(normal, pose.position)};
+}
+inline WallPlane planeAt(const Wall& wall, double time) { return planeOf(wall, wallMotion(wall, time).pose); }
 
 /// The half-space of what has no extent, which nothing meets: the shape of the world where joints end in it.
 const Wall& nowhere();
@@ -67,6 +87,8 @@ struct World {
 /// Whether a surface moves along itself: it may give energy. And whether something held moves by itself.
 bool hasBelts(const World& world);
 bool hasCourses(const World& world);
+/// What of it does, for messages: fixed boxes, walls, or both.
+std::string whatHasCourses(const World& world);
 /// [m/s²] Gravity just after a moment [s], and its mean from one moment to another.
 Vec3 gravityAt(const World& world, double time);
 Vec3 meanGravity(const World& world, double from, double to);

@@ -84,7 +84,7 @@ void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAng
 
 struct Renderer::Parts {
   Parts(const RunSetup& setup, const RenderOptions& options);
-  void look(const Camera& from);
+  void look(const Shot& shot);
   void place(std::span<const Pose> poses, const Camera& from);
   void drawOcclusion();
   void drawShaded(std::size_t layer);
@@ -100,6 +100,7 @@ struct Renderer::Parts {
   View view;
   Lighting lighting;
   Materials materials;
+  std::vector<WallReach> reaches;
   bool shadows;
   bool occlusion;
   double pixel = 0;  // [rad] as drawn
@@ -129,6 +130,7 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
       camera(options.camera ? *options.camera : cameraOf(setup, aspect)),
       lighting(options.lighting ? *options.lighting : lightingOf(stage, camera)),
       materials(options.materials ? *options.materials : materialsOf(stage)),
+      reaches(options.reaches),
       shadows(lighting.light && lighting.light->castsShadow && stage.picture.light.has(LightPart::kShadows) &&
               !world.bodies.empty()),
       occlusion(materials.occlusion && stage.picture.light.has(LightPart::kOcclusion) &&
@@ -151,7 +153,7 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
   if (shadows) {
     shadowBatch.emplace(gl, shaders);
   }
-  if (occlusion && !surfaces.surfaces().empty()) {
+  if (occlusion && (!surfaces.surfaces().empty() || stage.hasMovingPlanes())) {
     occlusionMap.emplace(gl, shaders, canvas.drawnWidth(), canvas.drawnHeight());
   }
   gl.GenBuffers(1, &blockBuffer);
@@ -187,9 +189,12 @@ void Renderer::Parts::upload() const {
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof(block), &block, GL_STREAM_DRAW);
 }
 
-void Renderer::Parts::look(const Camera& from) {
-  view = viewOf(from, extent, aspect);
+void Renderer::Parts::look(const Shot& shot) {
+  view = viewOf(shot.camera, extent, aspect);
   block.clipFromOffset = floats(view.clipFromOffset);
+  if (stage.hasMovingPlanes()) {
+    surfaces.replace(surfacesOf(stage, extent, materials, reaches, shot.time));
+  }
   surfaces.place(view.eye);
 }
 
@@ -351,7 +356,7 @@ Picture Renderer::draw(const Shot& shot) {
   }
   const Clock::time_point begun = Clock::now();
   parts.context->makeCurrent();
-  parts.look(shot.camera);
+  parts.look(shot);
   parts.place(shot.poses, shot.camera);
   parts.upload();
   if (parts.occlusionMap) {

@@ -44,6 +44,7 @@ struct Shot {
   std::span<const Pose> poses;  ///< one for each body of the world, in its order; or the same for several
                                 ///< moments, one after the other, all drawn
   Camera camera;
+  double time = 0;  ///< [s] of the run: where walls are that move by themselves
 };
 
 /// Draws a run's boxes at given poses on its stage, with the settings of stage.picture. The same shot gives

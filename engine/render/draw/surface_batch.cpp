@@ -85,8 +85,15 @@ SurfaceBatch::SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders,
       shaders_(shaders),
       light_(light),
       depthProgram_(linkProgram(gl, shaders, {"depth.vert", "black.frag"})),
-      surfaces_(std::move(surfaces)),
-      tileSize_(tileSize) {}
+      tileSize_(tileSize) {
+  replace(std::move(surfaces));
+}
+
+void SurfaceBatch::replace(std::vector<Surface> surfaces) {
+  surfaces_ = std::move(surfaces);
+  std::erase_if(surfaces_, [](const Surface& surface) { return surface.outline.empty(); });
+  eye_.reset();
+}
 
 void SurfaceBatch::place(const Vec3& eye) {
   if (eye_ != eye) {

@@ -14,12 +14,14 @@ namespace careen {
 
 struct Gl;
 
-/// Floor and walls. They are static: vertices are recomputed only when the eye has moved.
+/// Floor and walls. Vertices are recomputed only when the eye has moved, or walls have.
 class SurfaceBatch {
  public:
   SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders, const std::vector<std::string>& light,
                std::vector<Surface> surfaces, double tileSize);
   const std::vector<Surface>& surfaces() const { return surfaces_; }
+  /// Others than before: some have moved.
+  void replace(std::vector<Surface> surfaces);
   void place(const Vec3& eye);
   /// Draws to a canvas of this size [px]: where shadows may reach by blending full light and full shadow,
   /// where boxes occlude with the map of occlusion.

@@ -19,6 +19,7 @@ namespace {
 struct Sample {
   std::vector<Pose> poses;
   Camera camera;
+  double time = 0;  // [s] of the run
   int weight = 1;
 };
 
@@ -27,8 +28,8 @@ bool isSame(const Camera& a, const Camera& b) {
          a.beside == b.beside && a.sharpAt == b.sharpAt;
 }
 
-bool isSame(const Sample& a, const Sample& b) {
-  return isSame(a.camera, b.camera) &&
+bool isSame(const Sample& a, const Sample& b, const Stage& stage) {
+  return (a.time == b.time || !stage.hasMovingPlanes()) && isSame(a.camera, b.camera) &&
          std::equal(a.poses.begin(), a.poses.end(), b.poses.begin(), [](const Pose& p, const Pose& q) {
            return p.position == q.position && p.worldFromBody == q.worldFromBody;
          });
@@ -100,19 +101,21 @@ Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutte
   std::vector<Sample> samples;
   for (int i = 0; i < count; ++i) {
     const double time = filmTime + open * ((i + 0.5) / count - 0.5);
-    Sample sample{.poses = run_.poses(sceneTime(time)), .camera = camera(time, i, count)};
-    if (!samples.empty() && isSame(samples.back(), sample)) {
+    Sample sample{
+        .poses = run_.poses(sceneTime(time)), .camera = camera(time, i, count), .time = sceneTime(time)};
+    if (!samples.empty() && isSame(samples.back(), sample, run_.stage)) {
       ++samples.back().weight;  // identical to the last sample: no need to draw it again
     } else {
       samples.push_back(std::move(sample));
     }
   }
   if (samples.size() == 1) {
-    return renderer.draw({.poses = samples[0].poses, .camera = samples[0].camera});
+    return renderer.draw({.poses = samples[0].poses, .camera = samples[0].camera, .time = samples[0].time});
   }
   LightAverage average;
   for (const Sample& sample : samples) {
-    average.add(renderer.draw({.poses = sample.poses, .camera = sample.camera}), sample.weight);
+    average.add(renderer.draw({.poses = sample.poses, .camera = sample.camera, .time = sample.time}),
+                sample.weight);
   }
   return average.average();
 }
@@ -138,7 +141,8 @@ Picture Filming::drawStrobe(Renderer& renderer, std::span<const double> filmTime
     const std::vector<Pose> poses = run_.poses(sceneTime(time));
     all.insert(all.end(), poses.begin(), poses.end());
   }
-  return renderer.draw({.poses = all, .camera = camera(filmTimes.front())});
+  return renderer.draw(
+      {.poses = all, .camera = camera(filmTimes.front()), .time = sceneTime(filmTimes.back())});
 }
 
 }  // namespace careen

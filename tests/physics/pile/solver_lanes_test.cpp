@@ -115,10 +115,10 @@ TEST(PileSolver, solveTheirRows) {
   double pushed = 0;
   double slowest = 0;
   for (int row = 0; row < static_cast<int>(solver.rowCount()); ++row) {
-    EXPECT_GT(normalSpeed(solver, row), -2e-5) << row;  // measured -4e-6
+    EXPECT_GT(test::normalSpeed(solver, row), -2e-5) << row;  // measured -4e-6
     EXPECT_LE(std::hypot(solver.tangential1(row), solver.tangential2(row)),
               0.3 * solver.normalImpulse(row) + 1e-12);
-    slowest = std::min(slowest, normalSpeed(solver, row));
+    slowest = std::min(slowest, test::normalSpeed(solver, row));
     pushed += row < 4 ? solver.normalImpulse(row) : 0;
   }
   RecordProperty("slowest", std::to_string(slowest));

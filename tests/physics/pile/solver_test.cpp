@@ -96,7 +96,7 @@ Solved solved(int threads, int sweeps) {
   Solved result;
   const int rows = static_cast<int>(solver.rowCount());
   for (int row = 0; row < rows; ++row) {
-    result.fastest = std::max(result.fastest, -normalSpeed(solver, row));
+    result.fastest = std::max(result.fastest, -test::normalSpeed(solver, row));
     result.numbers.insert(result.numbers.end(),
                           {solver.normalImpulse(row), solver.tangential1(row), solver.tangential2(row)});
   }

@@ -10,6 +10,28 @@ TEST(World, endsNowhere) {
   EXPECT_EQ(&nowhere(), &nowhere());
 }
 
+// A wall through (1, 0, 0) that turns about it by a right angle in a second while that goes up at 2 m/s.
+TEST(World, tellsWhereAWallIs) {
+  Wall wall{.name = "wall", .normal = Vec3::UnitX(), .offset = 1, .material = {}};
+  EXPECT_EQ(planeAt(wall, 5).offset, 1);
+  World world;
+  world.walls = {wall};
+  EXPECT_FALSE(hasCourses(world));
+  wall.course = courseOf({.path = {},
+                          .velocity = Vec3(0, 0, 2),
+                          .angularVelocity = Vec3(0, 0, 1.57079632679489662),
+                          .about = Vec3(1, 0, 0)},
+                         {.position = Vec3(1, 0, 0)});
+  world.walls = {wall};
+  EXPECT_TRUE(hasCourses(world));
+  EXPECT_EQ(whatHasCourses(world), "walls");
+  EXPECT_EQ(planeAt(wall, 0).normal, Vec3::UnitX());
+  EXPECT_EQ(planeAt(wall, 0).offset, 1);
+  EXPECT_LT((planeAt(wall, 1).normal - Vec3::UnitY()).norm(), 1e-15);
+  EXPECT_NEAR(planeAt(wall, 1).offset, 0, 1e-15);
+  EXPECT_EQ(wallMotion(wall, 1).pose.position, Vec3(1, 0, 2));
+}
+
 // 2 until 1 s, then 5 until 3 s, then −1, along x: of 0.5 to 4 s (0.5 · 2 + 2 · 5 − 1)/3.5.
 TEST(World, tellsGravityAtAnyTime) {
   World world;
