@@ -7,14 +7,14 @@ namespace {
 
 // A quantity with its first and second derivative.
 template <class Vector>
-struct Course {
+struct Interpolant {
   Vector value;
   Vector rate;
   Vector acceleration;
 };
 
 template <class Vector>
-void fill(const Course<Vector>& from, const Course<Vector>& to, double h, std::array<Vector, 6>& c) {
+void fill(const Interpolant<Vector>& from, const Interpolant<Vector>& to, double h, std::array<Vector, 6>& c) {
   const Vector d = to.value - from.value;
   c[0] = from.value;
   c[1] = h * from.rate;
@@ -42,7 +42,7 @@ Quat pure(const Vec3& v) { return {0, v[0], v[1], v[2]}; }
 Vec4 turningRate(const StepEnd& end) { return 0.5 * (end.worldFromBody * pure(end.spinBody)).coeffs(); }
 
 // q̈ = ½ (q̇ ω + q ω̇).
-Course<Vec4> turning(const StepEnd& end) {
+Interpolant<Vec4> turning(const StepEnd& end) {
   const Vec4 rate = turningRate(end);
   const Vec4 bent =
       (Quat(rate) * pure(end.spinBody)).coeffs() + (end.worldFromBody * pure(end.spinRateBody)).coeffs();
