@@ -116,6 +116,9 @@ std::string nameOf(Method method) { return std::string(traitsOf(method).name); }
 PlanItem gravity(const Scene& scene) {
   const std::string changes = scene.gravityChanges.empty()
                                   ? ""
+                              : scene.gravityPath == GravityPath::kLinear
+                                  ? "; it runs straight through " +
+                                        counted(scene.gravityChanges.size() + 1, "point", "points")
                                   : "; it changes " + counted(scene.gravityChanges.size(), "time", "times");
   return isPulled(scene) ? modelled("gravity", "the scene sets it" + changes)
                          : leftOut("gravity", "the scene has none");
@@ -339,6 +342,7 @@ World assemble(const Scene& scene, const Plan& plan) {
   if (plan.models("gravity")) {
     world.gravity = scene.gravity;
     world.gravityChanges = scene.gravityChanges;
+    world.gravityPath = scene.gravityPath;
   }
   if (plan.models("box-wall")) {
     world.walls = wallsOf(scene);

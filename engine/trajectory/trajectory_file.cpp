@@ -20,7 +20,7 @@ namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kFileMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 14;
+constexpr std::uint64_t kVersion = 15;
 constexpr std::uint64_t kVersionWithoutCrowds = 4;  // the oldest that is read
 constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
@@ -31,6 +31,7 @@ constexpr std::uint64_t kVersionWithoutGrips = 10;
 constexpr std::uint64_t kVersionOfOneGravity = 11;  // and of surfaces that are still
 constexpr std::uint64_t kVersionOfOneBox = 12;      // for each body
 constexpr std::uint64_t kVersionWithoutCourses = 13;
+constexpr std::uint64_t kVersionOfSteps = 14;  // in gravity; runs without slopes are still written so
 
 // A run since format version 9.
 template <class Archive>
@@ -45,6 +46,30 @@ void visitPacked(Archive& archive, Visited<Archive, Trajectory> run) {
     visitPacked(archive, run.tracks[k]);
   }
   visitAll(archive, run.impacts);
+}
+
+// Flights have a jerk where gravity slopes.
+template <class Archive>
+void visitSlopes(Archive& archive, Visited<Archive, Trajectory> run) {
+  if constexpr (Archive::kReads) {
+    run.world.gravityPath = GravityPath::kLinear;
+  }
+  for (auto& track : run.tracks) {
+    const auto visitJerk = [&](auto& segment) {
+      if (auto* flight = std::get_if<Flight>(&segment.motion)) {
+        visit(archive, flight->jerk);
+      }
+    };
+    if constexpr (Archive::kReads) {
+      for (Segment& segment : track.segments.open()) {
+        visitJerk(segment);
+      }
+    } else {
+      for (const Segment& segment : track.segments) {
+        visitJerk(segment);
+      }
+    }
+  }
 }
 
 // All but the hash of the last state, as that version has it.
@@ -102,6 +127,9 @@ void visitRecord(Archive& archive, Visited<Archive, Trajectory> run, std::uint64
     for (auto& body : run.world.bodies) {
       visitAll(archive, body.course);
     }
+  }
+  if (version > kVersionOfSteps) {
+    visitSlopes(archive, run);
   }
 }
 
@@ -180,12 +208,14 @@ void writeTrajectory(const Trajectory& trajectory, const TextSink& sink) {
     sink(bytes);
   });
   file.bytes() += kFileMagic;
-  file.visit(kVersion);
+  const std::uint64_t version =
+      trajectory.world.gravityPath == GravityPath::kLinear ? kVersion : kVersionOfSteps;
+  file.visit(version);
   ArchiveWriter record([&](std::string_view piece) {
     file.visit(static_cast<std::uint64_t>(piece.size()));
     file.visit(compressed(piece));
   });
-  visitRecord(record, trajectory, kVersion);
+  visitRecord(record, trajectory, version);
   record.visit(trajectory.stateHash());
   record.handOn();
   file.handOn();

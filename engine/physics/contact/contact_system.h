@@ -36,7 +36,7 @@ void forCorners(std::span<const TouchingBody> bodies, std::size_t box, const IsN
 /// contact forces that ContactForces finds.
 ///
 /// A state y has 13 numbers per movable body: position, quaternion w x y z, velocity, ω in the body's frame.
-/// Where some are driven it has one more, at its end: the time [s], on which these depend.
+/// Where some are driven, or gravity slopes, it has one more, at its end: the time [s], on which that depends.
 class ContactSystem {
  public:
   using Mode = ContactForces::Mode;
@@ -53,8 +53,8 @@ class ContactSystem {
                 std::span<const ContactFeature> joints = {});
 
   const std::vector<TouchingBody>& bodies() const { return bodies_; }
-  /// Whether any of them is driven.
-  bool isDriven() const { return isDriven_; }
+  /// Whether any of them is driven, or gravity slopes: they never rest.
+  bool hasTime() const { return hasTime_; }
   const std::vector<ContactFeature>& features() const { return features_; }
   /// Ends of joints that are open, as slack ropes.
   const std::vector<ContactFeature>& openEnds() const { return openEnds_; }
@@ -147,7 +147,8 @@ class ContactSystem {
   double restSpeed_ = 0;
   double radius_ = 0;
   double pull_ = 0;
-  bool isDriven_ = false;
+  double time_ = 0;  // [s] where they were last looked at
+  bool hasTime_ = false;
 };
 
 }  // namespace careen

@@ -29,6 +29,11 @@ ContactStep GroupStep::motion(const TouchingBody& body, std::size_t index) const
     to.acceleration = (to.velocity - between.velocity) / half;
     from.spinRateBody = (between.spinBody - from.spinBody) / half;
     to.spinRateBody = (to.spinBody - between.spinBody) / half;
+    if (slopes) {  // those were of the middles of both halves
+      const Vec3 bend = 0.5 * (to.acceleration - from.acceleration);
+      from.acceleration -= bend;
+      to.acceleration += bend;
+    }
   }
   return hermiteStep(from, to, length);
 }
@@ -53,7 +58,8 @@ GroupBody GroupPath::at(std::size_t body, double time) const {
   return {.position = state.pose.position,
           .worldFromBody = Quat(state.pose.worldFromBody),
           .velocity = state.velocity,
-          .angularMomentum = state.angularMomentum};
+          .angularMomentum = state.angularMomentum,
+          .time = step_.start[body].time + time};
 }
 
 }  // namespace careen

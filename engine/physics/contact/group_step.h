@@ -14,6 +14,7 @@ struct GroupStep {
   GroupState start = {};
   GroupState end = {};
   GroupState middle = {};  ///< where two steps of half the length are joined; empty if it is one
+  bool slopes = false;     ///< accelerations grow evenly, as gravity does
 
   /// The polynomials of a body that is not held.
   ContactStep motion(const TouchingBody& body, std::size_t index) const;

@@ -51,7 +51,7 @@ bool hasNearlyStopped(const ContactSystem& system, std::size_t contact, double t
 }  // namespace
 
 bool isAtRest(const ContactSystem& system) {
-  if (system.isDriven()) {
+  if (system.hasTime()) {
     return false;
   }
   const double still = std::max(kStill * system.pull(), kStillLoaded * (loadOf(system) - system.pull()));

@@ -40,6 +40,7 @@ TimeStepper::TimeStepper(const World& world, const std::vector<TouchingBody>& bo
       found_(equations_.group(), closed(), joints),
       events_(equations_.group(), closed()),
       impacts_(equations_),
+      step_{.slopes = isGravitySloping(world)},
       end_(equations_.group().state()),
       acceleration_(equations_.loads().acceleration(end_)) {
   found_.find(end_, equations_.residual());
@@ -290,9 +291,12 @@ void TimeStepper::cutTo(double length) {
       end_[i] = path.at(i, length);
     }
     equations_.group().keepMomenta(step_.start, length, pushing(known_), end_);
+    step_.middle.clear();
+    for (std::size_t i = 0; step_.slopes && i < bodies_.size(); ++i) {
+      step_.middle.push_back(path.at(i, 0.5 * length));
+    }
     step_.length = length;
     step_.end = end_;
-    step_.middle.clear();
     found_.find(end_, equations_.residual());
   }
 }

@@ -70,7 +70,7 @@ bool anyMeet(const Mover& body, const Instant& time, const Body& other, double l
 
 bool meetsWithin(const Bodies& bodies, const CrowdGroup& group, const Mover& outsider, const Mover& member,
                  const Instant& time, double length) {
-  const MemberStep step(*member.body, unpushed(group.crowd(), member.place, bodies.world().gravity, length));
+  const MemberStep step(*member.body, unpushed(group.crowd(), member.place, gravityNow(bodies.world(), time.hi + 0.5 * length), length));
   const bool sleeps = group.crowd().sleeps(member.place);
   return anyMeet(outsider, time, *member.body, length,
                  [&](int box) { return sleeps ? member.moving(time, box) : step.moving(box); });
@@ -105,7 +105,7 @@ std::vector<int> outsidersIn(const Bodies& bodies, const CrowdGroup& group, cons
       continue;
     }
     const double way = body.flies()   ? length * (body.flight.velocityAt(body.elapsed(time)).norm() +
-                                                length * bodies.world().gravity.norm())
+                                                length * gravityScale(bodies.world()))
                        : body.moves() ? length * body.bounds.speed
                                       : 0;
     const Vec3 reach = Vec3::Constant(radiusOf(*body.body) + way);
@@ -156,7 +156,7 @@ bool meetsNext(const Bodies& bodies, const CrowdGroup& group, int rank, const In
     const double way =
         bodies.crowds().tolerance +
         within * ((state.velocity - at.velocity).norm() + turning + at.radius * at.omega.norm() +
-                  (within + at.behind) * bodies.world().gravity.norm());
+                  (within + at.behind) * gravityScale(bodies.world()));
     if ((state.pose.position - at.position).norm() > radius + at.radius + way ||
         !anyBoxes(*body.body, state.pose, *member.body, stateOf(at).pose,
                   [&](const BoxAt& a, const BoxAt& b) { return BoxAxes(a, b).gap() <= way; })) {
@@ -181,7 +181,7 @@ std::vector<int> nearStep(const Bodies& bodies, const CrowdGroup& group) {
         state.velocity.norm() + angularVelocity(body.body->mass, state).norm() * radiusOf(*body.body);
     const double way =
         length * (body.steps() || body.isDriven() ? body.bounds.speed
-                                                  : speed + length * bodies.world().gravity.norm());
+                                                  : speed + length * gravityScale(bodies.world()));
     return !anyMember(bodies, group, rank, [&](const Mover& member) {
       return group.crowd().cameNear(member.place, *body.body, state.pose, way);
     });

@@ -8,14 +8,15 @@
 
 namespace careen {
 
-void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravity) {
+void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravity, const Vec3& jerk) {
   kind = Kind::kFlies;
   group.reset();
   flight = {.position = state.pose.position,
             .velocity = state.velocity,
             .acceleration = gravity,
             .worldFromBody = attitude,
-            .angularMomentum = state.angularMomentum};
+            .angularMomentum = state.angularMomentum,
+            .jerk = jerk};
   if (!moments) {
     moments.emplace(body->mass.inertiaBody);
   }
@@ -116,7 +117,8 @@ MovingBox Mover::moving(const Instant& clockZero, int box) const {
           .step = steps() ? &group->motion(place) : nullptr,
           .speedBound = bounds.speed,
           .accelerationBound = bounds.acceleration,
-          .driven = isDriven() ? &drivenBy->motion : nullptr};
+          .driven = isDriven() ? &drivenBy->motion : nullptr,
+          .jerk = flight.jerk};
 }
 
 bool areTouching(const BoxAt& a, const BoxAt& b, double apart) {

@@ -55,7 +55,7 @@ struct Mover {
   bool isDriven() const { return kind == Kind::kDriven; }
   bool moves() const { return kind != Kind::kRests; }
   /// `attitude` is that of `state`, but may not reproduce its matrix to the bit.
-  void fly(const BodyState& state, const Quat& attitude, const Vec3& gravity);
+  void fly(const BodyState& state, const Quat& attitude, const Vec3& gravity, const Vec3& jerk);
   /// What is held does so.
   void drive(const CoursePart& by);
   /// It stays a member of its group.

@@ -42,7 +42,8 @@ EventKind kindOf(const FirstContact& contact) {
 bool moveAsOne(const Mover& a, const Mover& b) {
   return !a.steps() && !b.steps() && !a.isDriven() && !b.isDriven() && a.bounds.angularSpeed == 0 &&
          b.bounds.angularSpeed == 0 && a.flight.acceleration == b.flight.acceleration &&
-         a.flight.velocity == b.flight.velocity && a.flight.acceleration.isZero(0);
+         a.flight.velocity == b.flight.velocity && a.flight.acceleration.isZero(0) &&
+         a.flight.jerk.isZero(0) && b.flight.jerk.isZero(0);
 }
 
 }  // namespace
@@ -58,7 +59,7 @@ void meetWalls(const Mover& body, int index, std::span<const Mover> walls, doubl
   std::size_t likely = 0;
   double soonest = kNever;
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    const double clear = sphereClearUntil(box, walls[w].halfSpace->normal, walls[w].halfSpace->offset);
+    const double clear = sphereClearUntil(box, walls[w].halfSpace->normal, walls[w].halfSpace->offset, until);
     if (clear > 0 && clear < soonest) {
       soonest = clear;
       likely = w;
@@ -66,7 +67,7 @@ void meetWalls(const Mover& body, int index, std::span<const Mover> walls, doubl
   }
   const auto meet = [&](std::size_t w) {
     const Wall& wall = *walls[w].halfSpace;
-    const FirstContact contact = body.bounds.angularSpeed == 0
+    const FirstContact contact = body.bounds.angularSpeed == 0 && box.jerk.isZero(0)
                                      ? firstContactTranslating(box, wall.normal, wall.offset, until)
                                      : searchUntil(until, [&](const SearchWindow& window) {
                                          return firstContactWithWall(box, wall.normal, wall.offset, window);

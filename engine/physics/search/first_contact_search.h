@@ -17,6 +17,12 @@ inline double turningBound(const MovingBox& box) {
   return box.angularSpeedBound * box.angularSpeedBound + box.angularAccelerationBound;
 }
 
+/// [m/s²] Of the components of a flight's acceleration, up to a time of the search.
+inline Vec3 mostOf(const MovingBox& box, double until) {
+  return box.jerk.isZero(0) ? Vec3(box.acceleration.cwiseAbs())
+                            : Vec3(box.acceleration.cwiseAbs() + (box.age + until) * box.jerk.cwiseAbs());
+}
+
 /// Faster than anything that falls from rest within 8 tolerances of contact.
 inline bool fasterThanSinking(double approach, double curvature, double tolerance) {
   return approach > 0 && approach * approach > 16 * curvature * tolerance;

@@ -12,24 +12,28 @@ namespace {
 
 class WallApproach {
  public:
-  WallApproach(const MovingBox& box, const Vec3& normal, double offset)
+  WallApproach(const MovingBox& box, const Vec3& normal, double offset, double until)
       : box_(box),
         normal_(normal),
         height_(dot(normal, box.position) - offset),
         rate_(dot(normal, box.velocity)),
         acceleration_(dot(normal, box.acceleration)),
+        jerk_(dot(normal, box.jerk)),
+        lowest_(jerk_ == 0 ? acceleration_
+                           : std::min(acceleration_, dot(normal, box.accelerationAt(until)))),
         radius_(box.radius()),
         offCenter_(!box.center.isZero(0)),
-        curvature_(std::max(0.0, radius_ * turningBound(box) - acceleration_)) {
+        curvature_(std::max(0.0, radius_ * turningBound(box) - lowest_)) {
     const Vec3 weights = normal.cwiseAbs();
     sizes_ = {dot(weights, box.position.cwiseAbs()) + std::fabs(offset) + radius_,
-              dot(weights, box.velocity.cwiseAbs()), dot(weights, box.acceleration.cwiseAbs())};
+              dot(weights, box.velocity.cwiseAbs()),
+              dot(weights, mostOf(box, until))};
   }
 
   double skip(double time) const {
     const double elapsed = box_.age + time;
     const double clear = heightAt(elapsed) - radius_ * kSphere;
-    return clear > 0 ? time + firstRoot(clear, rateAt(elapsed), -acceleration_, kNever) : time;
+    return clear > 0 ? time + firstRoot(clear, rateAt(elapsed), -lowest_, kNever) : time;
   }
 
   void moveTo(double time) {
@@ -81,15 +85,19 @@ class WallApproach {
 
  private:
   double heightAt(double elapsed) const {
-    return height_ + elapsed * (rate_ + 0.5 * elapsed * acceleration_);
+    return height_ + elapsed * (rate_ + 0.5 * elapsed * acceleration_ + (elapsed * elapsed / 6) * jerk_);
   }
-  double rateAt(double elapsed) const { return rate_ + elapsed * acceleration_; }
+  double rateAt(double elapsed) const {
+    return rate_ + elapsed * acceleration_ + (0.5 * elapsed * elapsed) * jerk_;
+  }
 
   const MovingBox& box_;
   const Vec3 normal_;
   const double height_;
   const double rate_;
   const double acceleration_;
+  const double jerk_;
+  const double lowest_;  // of the acceleration
   const double radius_;
   const bool offCenter_;
   const double curvature_;
@@ -104,13 +112,13 @@ class WallApproach {
 
 }  // namespace
 
-double sphereClearUntil(const MovingBox& box, const Vec3& normal, double offset) {
-  return WallApproach(box, normal, offset).skip(0);
+double sphereClearUntil(const MovingBox& box, const Vec3& normal, double offset, double until) {
+  return WallApproach(box, normal, offset, until).skip(0);
 }
 
 FirstContact firstContactWithWall(const MovingBox& box, const Vec3& normal, double offset,
                                   const SearchWindow& window) {
-  WallApproach approach(box, normal, offset);
+  WallApproach approach(box, normal, offset, window.until);
   return findFirstContact(approach, window);
 }
 

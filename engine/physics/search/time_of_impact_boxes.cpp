@@ -20,12 +20,13 @@ double sumOfSizes(const Vec3& v) { return std::fabs(v.x()) + std::fabs(v.y()) + 
 
 class BoxApproach {
  public:
-  BoxApproach(const MovingBox& a, const MovingBox& b)
+  BoxApproach(const MovingBox& a, const MovingBox& b, double until)
       : a_(a),
         b_(b),
+        until_(until),
         bToA_(a.positionAt(0) - b.positionAt(0)),
         velocity_(a.velocityAt(0) - b.velocityAt(0)),
-        acceleration_(a.acceleration - b.acceleration),
+        acceleration_(a.accelerationAt(0) - b.accelerationAt(0)),
         radiusA_(a.radius()),
         radiusB_(b.radius()),
         offCenter_(!a.center.isZero(0) || !b.center.isZero(0)),
@@ -33,8 +34,8 @@ class BoxApproach {
         turningA_(turningBound(a)),
         turningB_(turningBound(b)),
         turningBoth_((turningA_ + turningB_) + 2 * a.angularSpeedBound * b.angularSpeedBound),
-        steps_(!a.isOnParabola() || !b.isOnParabola()),
-        gravity_(steps_ ? accelerationOf(a) + accelerationOf(b) : acceleration_.norm()) {}
+        steps_(!a.isFlight() || !b.isFlight() || a.jerk != b.jerk),
+        gravity_(steps_ ? accelerationOf(a, until) + accelerationOf(b, until) : acceleration_.norm()) {}
 
   double skip(double time) const;
   void moveTo(double time);
@@ -59,8 +60,10 @@ class BoxApproach {
   }
 
  private:
-  static double accelerationOf(const MovingBox& box) {
-    return box.isOnParabola() ? box.acceleration.norm() : box.accelerationBound;
+  static double accelerationOf(const MovingBox& box, double until) {
+    return !box.isFlight()        ? box.accelerationBound
+           : box.jerk.isZero(0) ? box.acceleration.norm()
+                                : std::max(box.acceleration.norm(), box.accelerationAt(until).norm());
   }
   Vec3 offsetAt(double time) const {
     return steps_ ? a_.positionAt(time) - b_.positionAt(time)
@@ -93,6 +96,7 @@ class BoxApproach {
 
   const MovingBox& a_;
   const MovingBox& b_;
+  const double until_;
   const Vec3 bToA_;
   const Vec3 velocity_;
   const Vec3 acceleration_;
@@ -103,7 +107,7 @@ class BoxApproach {
   const double turningA_;
   const double turningB_;
   const double turningBoth_;
-  const bool steps_;      // one of them is in a ContactStep, or driven
+  const bool steps_;      // one of them is in a ContactStep, or driven, or has a jerk of its own
   const double gravity_;  // [m/s²] bounds the relative acceleration
 
   // At the current time:
@@ -215,7 +219,7 @@ void BoxApproach::moveTo(double time) {
   }
   axes_.emplace(nowA_.worldFromBody, a_.halfExtents, nowB_.worldFromBody, b_.halfExtents, offset_);
 
-  const auto lengths = [](const MovingBox& box, double elapsed) {
+  const auto lengths = [&](const MovingBox& box, double elapsed) {
     if (box.step != nullptr) {
       return sumOfSizes(box.step->position[0]) + box.speedBound * elapsed;
     }
@@ -224,13 +228,13 @@ void BoxApproach::moveTo(double time) {
              box.speedBound * elapsed;
     }
     return sumOfSizes(box.position) +
-           elapsed * (sumOfSizes(box.velocity) + 0.5 * elapsed * sumOfSizes(box.acceleration));
+           elapsed * (sumOfSizes(box.velocity) + 0.5 * elapsed * sumOfSizes(mostOf(box, until_)));
   };
-  const auto speeds = [](const MovingBox& box, double elapsed) {
-    if (!box.isOnParabola()) {
+  const auto speeds = [&](const MovingBox& box, double elapsed) {
+    if (!box.isFlight()) {
       return box.speedBound;
     }
-    return sumOfSizes(box.velocity) + elapsed * sumOfSizes(box.acceleration);
+    return sumOfSizes(box.velocity) + elapsed * sumOfSizes(mostOf(box, until_));
   };
   tolerance_ = kGapRounding * ((lengths(a_, elapsedA) + lengths(b_, elapsedB)) + spheres_);
   rateTolerance_ = kRateRounding * ((speeds(a_, elapsedA) + speeds(b_, elapsedB)) +
@@ -374,7 +378,7 @@ ConcaveBound BoxApproach::restingBound(BoxAxis axis) const {
 }  // namespace
 
 FirstContact firstContactOfBoxes(const MovingBox& a, const MovingBox& b, const SearchWindow& window) {
-  BoxApproach approach(a, b);
+  BoxApproach approach(a, b, window.until);
   return findFirstContact(approach, window);
 }
 

@@ -21,7 +21,7 @@ Mover flying(const Body& body, const Vec3& gravity, double start) {
   Mover mover;
   mover.body = &body;
   mover.start = Instant(start);
-  mover.fly(body.initial, Quat(body.initial.pose.worldFromBody), gravity);
+  mover.fly(body.initial, Quat(body.initial.pose.worldFromBody), gravity, Vec3::Zero());
   return mover;
 }
 

@@ -21,7 +21,7 @@ struct Flyer {
     mover.rank = rank;
     mover.start = Instant(start);
     mover.motion = 5;
-    mover.fly(body.initial, Quat(body.initial.pose.worldFromBody), gravity);
+    mover.fly(body.initial, Quat(body.initial.pose.worldFromBody), gravity, Vec3::Zero());
   }
   Flyer(const Flyer&) = delete;
   Flyer& operator=(const Flyer&) = delete;
