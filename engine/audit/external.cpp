@@ -23,9 +23,8 @@ struct Node {
 constexpr double kRootOfThird = 0.57735026918962576451;
 constexpr double kRootOfThreeFifths = 0.77459666924148337704;
 constexpr std::array<Node, 2> kTwoNodes = {{{(1 - kRootOfThird) / 2, 0.5}, {(1 + kRootOfThird) / 2, 0.5}}};
-constexpr std::array<Node, 3> kThreeNodes = {{{(1 - kRootOfThreeFifths) / 2, 5.0 / 18},
-                                              {0.5, 8.0 / 18},
-                                              {(1 + kRootOfThreeFifths) / 2, 5.0 / 18}}};
+constexpr std::array<Node, 3> kThreeNodes = {
+    {{(1 - kRootOfThreeFifths) / 2, 5.0 / 18}, {0.5, 8.0 / 18}, {(1 + kRootOfThreeFifths) / 2, 5.0 / 18}}};
 
 bool isMovable(const World& world, const std::optional<int>& body) {
   return body && !isImmovable(world.bodies[static_cast<std::size_t>(*body)].mass);

@@ -62,9 +62,9 @@ double leavesChord(double from, double to, double jerk) { return 0.125 * (to - f
 MotionBounds flightBounds(const Flight& flight, const MassProperties& mass, double from, double to) {
   MotionBounds bounds;
   const double jerk = flight.jerk.norm();
-  const double acceleration =
-      jerk == 0 ? flight.acceleration.norm()
-                : kOfRounding * std::max(flight.accelerationAt(from).norm(), flight.accelerationAt(to).norm());
+  const double acceleration = jerk == 0 ? flight.acceleration.norm()
+                                        : kOfRounding * std::max(flight.accelerationAt(from).norm(),
+                                                                 flight.accelerationAt(to).norm());
   bounds.speed = kOfRounding * (std::max(flight.velocityAt(from).norm(), flight.velocityAt(to).norm()) +
                                 leavesChord(from, to, jerk));
   bounds.place = {.rate = bounds.speed, .bend = acceleration};

@@ -21,9 +21,8 @@ struct Node {
   double weight = 0;
 };
 constexpr double kRootOfThreeFifths = 0.77459666924148337704;
-constexpr std::array<Node, 3> kNodes = {{{(1 - kRootOfThreeFifths) / 2, 5.0 / 18},
-                                         {0.5, 8.0 / 18},
-                                         {(1 + kRootOfThreeFifths) / 2, 5.0 / 18}}};
+constexpr std::array<Node, 3> kNodes = {
+    {{(1 - kRootOfThreeFifths) / 2, 5.0 / 18}, {0.5, 8.0 / 18}, {(1 + kRootOfThreeFifths) / 2, 5.0 / 18}}};
 
 // [m s] ∫ x dt of a body from one time [s] to another.
 Vec3 placeOverTime(const Trajectory& run, std::size_t body, double from, double to) {

@@ -28,9 +28,9 @@ EnergyShares energySharesOf(const World& world, std::span<const BodyState> state
 /// shares.sum() − motors − changes + Σ of what was lost is the energy at the start.
 struct RunEnergies {
   EnergyShares shares;
-  double motors = 0;   ///< work of motors, as controls set their efforts
-  /// By which that of gravity changed as gravity did: −M (g′ − g)·x where it jumps, −M ∫ (dg/dt)·x dt where it
-  /// slopes.
+  double motors = 0;  ///< work of motors, as controls set their efforts
+  /// By which that of gravity changed as gravity did: −M (g′ − g)·x where it jumps, −M ∫ (dg/dt)·x dt where
+  /// it slopes.
   double changes = 0;
   EnergyLosses lost;
   /// What remains: lost in contact, by friction and in collisions of time steps, whose velocities do not jump

@@ -81,7 +81,8 @@ class Giving {
                        ": its scene has fixed boxes that move; expected one whose fixed boxes are still");
     }
     if (run_.world.gravityPath == GravityPath::kLinear) {
-      throw InputError(table_.name + ": its scene has gravity that slopes; expected one whose gravity jumps at most");
+      throw InputError(table_.name +
+                       ": its scene has gravity that slopes; expected one whose gravity jumps at most");
     }
     gather();
     setDuration();

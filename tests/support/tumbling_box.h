@@ -80,7 +80,8 @@ struct TumblingBox {
             .angularSpeedBound = (spinning + precessing).norm() * (1 + 1e-14),
             .angularAccelerationBound = precessing.cross(spinning).norm() * (1 + 1e-14),
             .attitude = AttitudeView(*this),
-            .jerk = jerk};
+            .jerk = jerk,
+            .lasts = 2};
   }
 };
 

@@ -348,8 +348,8 @@ bool ContactSystem::keepMomenta(std::span<const double> before, double h, std::v
     }
   }
   const auto changes = changesToKeep(
-      *world_, bodies_, pushing, hasTime_ ? before.back() : 0, h, [&](std::size_t i) { return stateIn(before, i); },
-      [&](std::size_t i) { return stateIn(y, i); });
+      *world_, bodies_, pushing, hasTime_ ? before.back() : 0, h,
+      [&](std::size_t i) { return stateIn(before, i); }, [&](std::size_t i) { return stateIn(y, i); });
   for (const auto& [i, change] : changes) {
     const BodyState state = stateIn(y, i);
     const std::size_t at = places_[i] * kNumbers;

@@ -36,7 +36,8 @@ void forCorners(std::span<const TouchingBody> bodies, std::size_t box, const IsN
 /// contact forces that ContactForces finds.
 ///
 /// A state y has 13 numbers per movable body: position, quaternion w x y z, velocity, ω in the body's frame.
-/// Where some are driven, or gravity slopes, it has one more, at its end: the time [s], on which that depends.
+/// Where some are driven, or gravity slopes, it has one more, at its end: the time [s], on which that
+/// depends.
 class ContactSystem {
  public:
   using Mode = ContactForces::Mode;

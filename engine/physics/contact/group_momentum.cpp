@@ -119,11 +119,9 @@ std::optional<RigidChange> changeTo(const GroupMomentum& before, double h, const
   return same ? std::nullopt : std::optional(change);
 }
 
-std::vector<std::pair<std::size_t, RigidChange>> changesToKeep(const World& world,
-                                                               std::span<const TouchingBody> bodies,
-                                                               std::span<const ContactFeature> pushing,
-                                                               double time, double h, const StateOfBody& before,
-                                                               const StateOfBody& now) {
+std::vector<std::pair<std::size_t, RigidChange>> changesToKeep(
+    const World& world, std::span<const TouchingBody> bodies, std::span<const ContactFeature> pushing,
+    double time, double h, const StateOfBody& before, const StateOfBody& now) {
   std::vector<std::pair<std::size_t, RigidChange>> changes;
   for (const std::vector<std::size_t>& group : freeGroups(world, bodies, pushing)) {
     const auto momentum = [&](const StateOfBody& stateOf) {
@@ -134,7 +132,8 @@ std::vector<std::pair<std::size_t, RigidChange>> changesToKeep(const World& worl
       }
       return momentumOf(members);
     };
-    if (const auto change = changeTo(momentum(before), h, gravityNow(world, time), momentum(now), gravitySlope(world))) {
+    if (const auto change =
+            changeTo(momentum(before), h, gravityNow(world, time), momentum(now), gravitySlope(world))) {
       for (const std::size_t i : group) {
         changes.emplace_back(i, *change);
       }

@@ -320,11 +320,7 @@ Doubt* Bodies::doubtAt(int rank, const Instant& time) {
 // ---- Prediction of events.
 
 Instant Bodies::foreseen() const {
-  if (!isGravitySloping(world_)) {
-    return end_;
-  }
-  const Instant kink(world_.gravityChanges.front().time);
-  return earlier(kink, end_) ? kink : end_;
+  return isGravitySloping(world_) ? Instant(world_.gravityChanges.front().time) : end_;
 }
 
 void Bodies::predict(int rank) {
@@ -356,7 +352,7 @@ void Bodies::predict(int rank) {
       continue;
     }
     if (mayTouch(world_, body.listed.value, (*this)[candidate].listed.value)) {
-      takeSooner(first, firstMeeting(body, (*this)[candidate], first ? first->time : foreseen()));
+      takeSooner(first, firstMeeting(body, (*this)[candidate], foreseen(), first ? first->time : foreseen()));
     }
   }
   if (first) {
@@ -419,8 +415,7 @@ void Bodies::findCrossing(int rank) {
     body.crossing =
         neighbors_.nextCrossing(body.group->motion(body.place), body.bounds.speed, cell, body.crossing.time);
   } else {
-    body.crossing =
-        neighbors_.nextCrossing(body.flight, body.elapsed(foreseen()), cell, body.crossing.time);
+    body.crossing = neighbors_.nextCrossing(body.flight, body.elapsed(foreseen()), cell, body.crossing.time);
   }
 }
 

@@ -56,11 +56,13 @@ ContactStep unpushed(const Crowd& crowd, std::size_t place, const Vec3& gravity,
 
 // Whether any box of a body meets one of another in so long [s] from `time` on; `moving(box)` of the other.
 template <class Moving>
-bool anyMeet(const Mover& body, const Instant& time, const Body& other, double length, const Moving& moving) {
+bool anyMeet(const Bodies& bodies, const Mover& body, const Instant& time, const Body& other, double length,
+             const Moving& moving) {
   for (int i = 0; i < body.body->partCount(); ++i) {
     for (int j = 0; j < other.partCount(); ++j) {
-      if (firstContactOfBoxes(body.moving(time, i), moving(j), {.from = 0, .until = length}).kind !=
-          ContactKind::kNone) {
+      if (firstContactOfBoxes(body.moving(time, i, bodies.foreseen()), moving(j),
+                              {.from = 0, .until = length})
+              .kind != ContactKind::kNone) {
         return true;
       }
     }
@@ -70,10 +72,12 @@ bool anyMeet(const Mover& body, const Instant& time, const Body& other, double l
 
 bool meetsWithin(const Bodies& bodies, const CrowdGroup& group, const Mover& outsider, const Mover& member,
                  const Instant& time, double length) {
-  const MemberStep step(*member.body, unpushed(group.crowd(), member.place, gravityNow(bodies.world(), time.hi + 0.5 * length), length));
+  const MemberStep step(*member.body, unpushed(group.crowd(), member.place,
+                                               gravityNow(bodies.world(), time.hi + 0.5 * length), length));
   const bool sleeps = group.crowd().sleeps(member.place);
-  return anyMeet(outsider, time, *member.body, length,
-                 [&](int box) { return sleeps ? member.moving(time, box) : step.moving(box); });
+  return anyMeet(bodies, outsider, time, *member.body, length, [&](int box) {
+    return sleeps ? member.moving(time, box, bodies.foreseen()) : step.moving(box);
+  });
 }
 
 /// Whether any member in the cells around that body, which may touch it, does that.
@@ -134,7 +138,8 @@ bool wasMet(const Bodies& bodies, const CrowdGroup& group, int rank, const Insta
            const MemberStep step(
                *member.body,
                asContactStep(cubicStep(crowd.begin(member.place), crowd.end(member.place), crowd.length())));
-           return anyMeet(body, time, *member.body, length, [&](int box) { return step.moving(box); });
+           return anyMeet(bodies, body, time, *member.body, length,
+                          [&](int box) { return step.moving(box); });
          });
 }
 
@@ -180,8 +185,8 @@ std::vector<int> nearStep(const Bodies& bodies, const CrowdGroup& group) {
     const double speed =
         state.velocity.norm() + angularVelocity(body.body->mass, state).norm() * radiusOf(*body.body);
     const double way =
-        length * (body.steps() || body.isDriven() ? body.bounds.speed
-                                                  : speed + length * gravityScale(bodies.world()));
+        length *
+        (body.steps() || body.isDriven() ? body.bounds.speed : speed + length * gravityScale(bodies.world()));
     return !anyMember(bodies, group, rank, [&](const Mover& member) {
       return group.crowd().cameNear(member.place, *body.body, state.pose, way);
     });

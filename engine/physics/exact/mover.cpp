@@ -102,7 +102,7 @@ Attitude Mover::operator()(double elapsed) const {
           .angularVelocity = rotation->angularVelocityWorld(principal)};
 }
 
-MovingBox Mover::moving(const Instant& clockZero, int box) const {
+MovingBox Mover::moving(const Instant& clockZero, int box, const Instant& foreseen) const {
   const TouchingShape shape = shapeOf(*body, box);
   return {.halfExtents = shape.halfExtents,
           .center = shape.center,
@@ -118,7 +118,8 @@ MovingBox Mover::moving(const Instant& clockZero, int box) const {
           .speedBound = bounds.speed,
           .accelerationBound = bounds.acceleration,
           .driven = isDriven() ? &drivenBy->motion : nullptr,
-          .jerk = flight.jerk};
+          .jerk = flight.jerk,
+          .lasts = flight.jerk.isZero(0) ? 0 : elapsed(foreseen)};
 }
 
 bool areTouching(const BoxAt& a, const BoxAt& b, double apart) {

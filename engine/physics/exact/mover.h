@@ -70,8 +70,8 @@ struct Mover {
   BodyState stateAt(const Instant& time) const { return stateAt(time, attitudeAt(time)); }
   /// For the contact search; `elapsed` [s] counts from the start of the motion.
   Attitude operator()(double elapsed) const;
-  /// One of its boxes, with time 0 of the search at `clockZero`.
-  MovingBox moving(const Instant& clockZero, int box) const;
+  /// One of its boxes, with time 0 of the search at `clockZero`; a flight lasts as long as is `foreseen`.
+  MovingBox moving(const Instant& clockZero, int box, const Instant& foreseen) const;
 };
 
 /// Whether the gap of two boxes is within the contact-group tolerance, or within `apart` [m] if that is more.

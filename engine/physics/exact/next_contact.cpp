@@ -52,14 +52,14 @@ namespace {
 
 // Of one of its boxes with any wall, if it is before `until` [s] of the body's motion, which then is its
 // time.
-void meetWalls(const Mover& body, int index, std::span<const Mover> walls, double& until,
-               std::optional<Event>& first) {
-  const MovingBox box = body.moving(body.start, index);
+void meetWalls(const Mover& body, int index, std::span<const Mover> walls, const Instant& foreseen,
+               double& until, std::optional<Event>& first) {
+  const MovingBox box = body.moving(body.start, index, foreseen);
   // The wall likely to be hit first, so that the others need not be searched beyond that time.
   std::size_t likely = 0;
   double soonest = kNever;
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    const double clear = sphereClearUntil(box, walls[w].halfSpace->normal, walls[w].halfSpace->offset, until);
+    const double clear = sphereClearUntil(box, walls[w].halfSpace->normal, walls[w].halfSpace->offset);
     if (clear > 0 && clear < soonest) {
       soonest = clear;
       likely = w;
@@ -91,12 +91,13 @@ std::optional<Event> firstWall(const Mover& body, std::span<const Mover> walls, 
   std::optional<Event> first;
   double until = body.elapsed(end);
   for (int i = 0; i < body.body->partCount(); ++i) {
-    meetWalls(body, i, walls, until, first);
+    meetWalls(body, i, walls, end, until, first);
   }
   return first;
 }
 
-std::optional<Event> firstMeeting(const Mover& body, const Mover& other, const Instant& until) {
+std::optional<Event> firstMeeting(const Mover& body, const Mover& other, const Instant& foreseen,
+                                  const Instant& until) {
   const Instant zero = later(body.start, other.start);
   Instant last = until;
   for (const Mover* each : {&body, &other}) {
@@ -115,7 +116,7 @@ std::optional<Event> firstMeeting(const Mover& body, const Mover& other, const I
         continue;
       }
       const FirstContact contact = searchUntil(end, [&](const SearchWindow& window) {
-        return firstContactOfBoxes(body.moving(zero, i), other.moving(zero, j), window);
+        return firstContactOfBoxes(body.moving(zero, i, foreseen), other.moving(zero, j, foreseen), window);
       });
       if (contact.kind != ContactKind::kNone && (!first || contact.time < end)) {
         end = contact.time;

@@ -16,8 +16,7 @@ struct Flight {
   Vec3 jerk = Vec3::Zero();               ///< [m/s³] constant
 
   Vec3 positionAt(double elapsed) const {
-    return position +
-           (velocity + 0.5 * elapsed * acceleration + (elapsed * elapsed / 6) * jerk) * elapsed;
+    return position + (velocity + 0.5 * elapsed * acceleration + (elapsed * elapsed / 6) * jerk) * elapsed;
   }
   Vec3 velocityAt(double elapsed) const {
     return velocity + elapsed * acceleration + (0.5 * elapsed * elapsed) * jerk;

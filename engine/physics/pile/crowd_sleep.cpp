@@ -301,7 +301,8 @@ void CrowdSleep::freeze(std::size_t place, int cluster) {
 }
 
 // At rest, or nearly so: the forces of the last step balanced but for that part of gravity, and its speed is
-// that part of what friction stops in a step. What touches something driven never is, and nothing where gravity slopes.
+// that part of what friction stops in a step. What touches something driven never is, and nothing where
+// gravity slopes.
 bool CrowdSleep::isQuiet(std::size_t place, double imbalance, double part) const {
   const PileBody& body = members_[place];
   const double speed = body.velocity.norm() + body.radius * body.omega.norm();

@@ -17,10 +17,9 @@ inline double turningBound(const MovingBox& box) {
   return box.angularSpeedBound * box.angularSpeedBound + box.angularAccelerationBound;
 }
 
-/// [m/s²] Of the components of a flight's acceleration, up to a time of the search.
-inline Vec3 mostOf(const MovingBox& box, double until) {
-  return box.jerk.isZero(0) ? Vec3(box.acceleration.cwiseAbs())
-                            : Vec3(box.acceleration.cwiseAbs() + (box.age + until) * box.jerk.cwiseAbs());
+/// [m/s²] Of the components of a flight's acceleration.
+inline Vec3 mostOf(const MovingBox& box) {
+  return box.acceleration.cwiseAbs() + box.lasts * box.jerk.cwiseAbs();
 }
 
 /// Faster than anything that falls from rest within 8 tolerances of contact.

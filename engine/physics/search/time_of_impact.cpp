@@ -12,22 +12,20 @@ namespace {
 
 class WallApproach {
  public:
-  WallApproach(const MovingBox& box, const Vec3& normal, double offset, double until)
+  WallApproach(const MovingBox& box, const Vec3& normal, double offset)
       : box_(box),
         normal_(normal),
         height_(dot(normal, box.position) - offset),
         rate_(dot(normal, box.velocity)),
         acceleration_(dot(normal, box.acceleration)),
         jerk_(dot(normal, box.jerk)),
-        lowest_(jerk_ == 0 ? acceleration_
-                           : std::min(acceleration_, dot(normal, box.accelerationAt(until)))),
+        lowest_(std::min(acceleration_, dot(normal, box.accelerationAfter(box.lasts)))),
         radius_(box.radius()),
         offCenter_(!box.center.isZero(0)),
         curvature_(std::max(0.0, radius_ * turningBound(box) - lowest_)) {
     const Vec3 weights = normal.cwiseAbs();
     sizes_ = {dot(weights, box.position.cwiseAbs()) + std::fabs(offset) + radius_,
-              dot(weights, box.velocity.cwiseAbs()),
-              dot(weights, mostOf(box, until))};
+              dot(weights, box.velocity.cwiseAbs()), dot(weights, mostOf(box))};
   }
 
   double skip(double time) const {
@@ -112,13 +110,13 @@ class WallApproach {
 
 }  // namespace
 
-double sphereClearUntil(const MovingBox& box, const Vec3& normal, double offset, double until) {
-  return WallApproach(box, normal, offset, until).skip(0);
+double sphereClearUntil(const MovingBox& box, const Vec3& normal, double offset) {
+  return WallApproach(box, normal, offset).skip(0);
 }
 
 FirstContact firstContactWithWall(const MovingBox& box, const Vec3& normal, double offset,
                                   const SearchWindow& window) {
-  WallApproach approach(box, normal, offset, window.until);
+  WallApproach approach(box, normal, offset);
   return findFirstContact(approach, window);
 }
 

@@ -23,8 +23,8 @@
 //     u rotating with b's face  M = K_b|Δ| + 2 W_b V + G + K_ab R_a   (f = u·Δ + u·r_a; likewise a's face)
 //     N = aᵢ×bⱼ rotating        M = K_ab|Δ| + 2 (W_a+W_b) V + G + K_ab (ρ_a+ρ_b)
 //     u fixed in space          M = K_a R_a + K_b R_b − u·g
-// Of a flight with jerk, g is that of the start or the end of the search, where it does more. Two with the
-// same jerk have none relative to each other.
+// Of a flight with jerk, g is that of its start or its end, where it does more. Two with the same jerk have
+// none relative to each other.
 // Where the middle of a box is not its centre of mass, Δ is that of the centres of mass, R the distance to
 // the furthest corner, and the constant part of f moves with the boxes: the bounds M stay.
 // ρ is the half diagonal across the edge. In a ContactStep the centre's path is no parabola: G then bounds
@@ -79,12 +79,14 @@ struct MovingBox {
   double accelerationBound = 0;       ///< [m/s²] likewise
   const Driven* driven = nullptr;     ///< likewise
   Vec3 jerk = Vec3::Zero();           ///< [m/s³] of a flight, constant
+  double lasts = 0;                   ///< [s] of one with jerk, since it began: no search goes on for longer
 
   bool isFlight() const { return step == nullptr && driven == nullptr; }
   Vec3 positionAt(double time) const {
     const double elapsed = age + time;
     return isFlight()
-               ? position + (velocity + 0.5 * elapsed * acceleration + (elapsed * elapsed / 6) * jerk) * elapsed
+               ? position +
+                     (velocity + 0.5 * elapsed * acceleration + (elapsed * elapsed / 6) * jerk) * elapsed
            : step != nullptr ? careen::positionAt(*step, elapsed)
                              : driven->at(elapsed).pose.position;
   }
@@ -94,8 +96,8 @@ struct MovingBox {
            : step != nullptr ? careen::velocityAt(*step, elapsed)
                              : driven->at(elapsed).velocity;
   }
-  /// [m/s²] Of a flight, at a time.
-  Vec3 accelerationAt(double time) const { return acceleration + (age + time) * jerk; }
+  /// [m/s²] Of a flight, `elapsed` [s] after it began.
+  Vec3 accelerationAfter(double elapsed) const { return acceleration + elapsed * jerk; }
   /// [m] From the centre of mass to the furthest corner.
   double radius() const { return (center.cwiseAbs() + halfExtents).norm(); }
   /// Of the box's own axes, `elapsed` [s] after the flight began.
@@ -141,8 +143,8 @@ struct SearchWindow {
 FirstContact firstContactWithWall(const MovingBox& box, const Vec3& normal, double offset,
                                   const SearchWindow& window);
 
-/// [s] Time (≥ 0) until which the box's bounding sphere is clear of the wall, or past `until`.
-double sphereClearUntil(const MovingBox& box, const Vec3& normal, double offset, double until);
+/// [s] Time (≥ 0) until which the box's bounding sphere is clear of the wall.
+double sphereClearUntil(const MovingBox& box, const Vec3& normal, double offset);
 
 /// First contact of two boxes. Swapping a and b gives the same bits in time (normal reversed).
 FirstContact firstContactOfBoxes(const MovingBox& a, const MovingBox& b, const SearchWindow& window);

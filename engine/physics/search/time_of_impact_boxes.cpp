@@ -20,13 +20,12 @@ double sumOfSizes(const Vec3& v) { return std::fabs(v.x()) + std::fabs(v.y()) + 
 
 class BoxApproach {
  public:
-  BoxApproach(const MovingBox& a, const MovingBox& b, double until)
+  BoxApproach(const MovingBox& a, const MovingBox& b)
       : a_(a),
         b_(b),
-        until_(until),
         bToA_(a.positionAt(0) - b.positionAt(0)),
         velocity_(a.velocityAt(0) - b.velocityAt(0)),
-        acceleration_(a.accelerationAt(0) - b.accelerationAt(0)),
+        acceleration_(a.accelerationAfter(a.age) - b.accelerationAfter(b.age)),
         radiusA_(a.radius()),
         radiusB_(b.radius()),
         offCenter_(!a.center.isZero(0) || !b.center.isZero(0)),
@@ -35,7 +34,7 @@ class BoxApproach {
         turningB_(turningBound(b)),
         turningBoth_((turningA_ + turningB_) + 2 * a.angularSpeedBound * b.angularSpeedBound),
         steps_(!a.isFlight() || !b.isFlight() || a.jerk != b.jerk),
-        gravity_(steps_ ? accelerationOf(a, until) + accelerationOf(b, until) : acceleration_.norm()) {}
+        gravity_(steps_ ? accelerationOf(a) + accelerationOf(b) : acceleration_.norm()) {}
 
   double skip(double time) const;
   void moveTo(double time);
@@ -60,10 +59,9 @@ class BoxApproach {
   }
 
  private:
-  static double accelerationOf(const MovingBox& box, double until) {
-    return !box.isFlight()        ? box.accelerationBound
-           : box.jerk.isZero(0) ? box.acceleration.norm()
-                                : std::max(box.acceleration.norm(), box.accelerationAt(until).norm());
+  static double accelerationOf(const MovingBox& box) {
+    return box.isFlight() ? std::max(box.acceleration.norm(), box.accelerationAfter(box.lasts).norm())
+                          : box.accelerationBound;
   }
   Vec3 offsetAt(double time) const {
     return steps_ ? a_.positionAt(time) - b_.positionAt(time)
@@ -96,7 +94,6 @@ class BoxApproach {
 
   const MovingBox& a_;
   const MovingBox& b_;
-  const double until_;
   const Vec3 bToA_;
   const Vec3 velocity_;
   const Vec3 acceleration_;
@@ -219,7 +216,7 @@ void BoxApproach::moveTo(double time) {
   }
   axes_.emplace(nowA_.worldFromBody, a_.halfExtents, nowB_.worldFromBody, b_.halfExtents, offset_);
 
-  const auto lengths = [&](const MovingBox& box, double elapsed) {
+  const auto lengths = [](const MovingBox& box, double elapsed) {
     if (box.step != nullptr) {
       return sumOfSizes(box.step->position[0]) + box.speedBound * elapsed;
     }
@@ -228,13 +225,13 @@ void BoxApproach::moveTo(double time) {
              box.speedBound * elapsed;
     }
     return sumOfSizes(box.position) +
-           elapsed * (sumOfSizes(box.velocity) + 0.5 * elapsed * sumOfSizes(mostOf(box, until_)));
+           elapsed * (sumOfSizes(box.velocity) + 0.5 * elapsed * sumOfSizes(mostOf(box)));
   };
-  const auto speeds = [&](const MovingBox& box, double elapsed) {
+  const auto speeds = [](const MovingBox& box, double elapsed) {
     if (!box.isFlight()) {
       return box.speedBound;
     }
-    return sumOfSizes(box.velocity) + elapsed * sumOfSizes(mostOf(box, until_));
+    return sumOfSizes(box.velocity) + elapsed * sumOfSizes(mostOf(box));
   };
   tolerance_ = kGapRounding * ((lengths(a_, elapsedA) + lengths(b_, elapsedB)) + spheres_);
   rateTolerance_ = kRateRounding * ((speeds(a_, elapsedA) + speeds(b_, elapsedB)) +
@@ -378,7 +375,7 @@ ConcaveBound BoxApproach::restingBound(BoxAxis axis) const {
 }  // namespace
 
 FirstContact firstContactOfBoxes(const MovingBox& a, const MovingBox& b, const SearchWindow& window) {
-  BoxApproach approach(a, b, window.until);
+  BoxApproach approach(a, b);
   return findFirstContact(approach, window);
 }
 

@@ -10,7 +10,9 @@
 namespace careen {
 
 FlightAccount::FlightAccount(const World& world)
-    : world_(world), bodies_(world.bodies.size()), mayGain_(hasBelts(world) || hasCourses(world) || world.gravityPath == GravityPath::kLinear) {
+    : world_(world),
+      bodies_(world.bodies.size()),
+      mayGain_(hasBelts(world) || hasCourses(world) || world.gravityPath == GravityPath::kLinear) {
   if (!world.springs.empty() || !world.joints.empty()) {
     for (const Body& body : world.bodies) {
       states_.push_back(body.initial);

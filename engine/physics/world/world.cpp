@@ -82,9 +82,9 @@ bool isGravitySloping(const World& world) {
 }
 
 Vec3 gravitySlope(const World& world) {
-  return isGravitySloping(world) ? slopeOf({.time = world.gravitySince, .gravity = world.gravity},
-                                           world.gravityChanges.front())
-                                 : Vec3(Vec3::Zero());
+  return isGravitySloping(world)
+             ? slopeOf({.time = world.gravitySince, .gravity = world.gravity}, world.gravityChanges.front())
+             : Vec3(Vec3::Zero());
 }
 
 Vec3 gravityNow(const World& world, double time) {

@@ -56,9 +56,9 @@ enum class GravityPath { kSteps, kLinear };
 
 /// The simulated system: only what a scene's plan needs is in it; an empty list costs nothing.
 struct World {
-  Vec3 gravity = Vec3::Zero();                   ///< [m/s²] at `gravitySince`
-  double gravitySince = 0;                       ///< [s] the start; of a world that changes, the last change
-  std::vector<GravityChange> gravityChanges;     ///< after it; their times ascend
+  Vec3 gravity = Vec3::Zero();                    ///< [m/s²] at `gravitySince`
+  double gravitySince = 0;                        ///< [s] the start; of a world that changes, the last change
+  std::vector<GravityChange> gravityChanges;      ///< after it; their times ascend
   GravityPath gravityPath = GravityPath::kSteps;  ///< constant after the last of them
   std::vector<Body> bodies;
   std::vector<Wall> walls;

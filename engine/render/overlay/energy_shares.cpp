@@ -53,8 +53,8 @@ EnergyShares EnergyBook::sharesOf(std::span<const BodyState> states, double time
   if (world_.gravityPath == GravityPath::kLinear && last < world_.gravityChanges.size()) {
     // The lowest is concave in gravity: between two it is not below what is between theirs.
     const double from = last == 0 ? world_.gravitySince : world_.gravityChanges[last - 1].time;
-    shares.gravity -= (time - from) / (world_.gravityChanges[last].time - from) *
-                      (lowest_[last + 1] - lowest_[last]);
+    shares.gravity -=
+        (time - from) / (world_.gravityChanges[last].time - from) * (lowest_[last + 1] - lowest_[last]);
   }
   return shares;
 }
