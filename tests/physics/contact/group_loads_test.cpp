@@ -35,7 +35,7 @@ TEST(GroupLoads, areTheWeightsOfTheMomentWhereGravitySlopes) {
   EXPECT_EQ(loads[0].force, Vec3(0, 0, -15));
   EXPECT_EQ(loads.acceleration(of.state), 30);
   EXPECT_EQ(loads.pull(of.state), 30);
-  world.drag = Drag{.linear = 4, .angular = 0};
+  of.world.drag = Drag{.linear = 4, .angular = 0};
   of.state[0].velocity = Vec3(0, 0, 1);
   GroupLoads dragged(of.group);
   dragged.find(of.state);
