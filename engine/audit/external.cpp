@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -13,10 +14,17 @@
 namespace careen {
 namespace {
 
-// Gauss–Legendre with two nodes on [0, 1]: exact for polynomials of degree 3. Steps are short; a place in
-// flight has degree 2.
+// Gauss–Legendre on [0, 1], with two nodes exact for polynomials of degree 3, with three of degree 5. Steps
+// are short; a place in flight has degree 2, where gravity slopes its torque 4.
+struct Node {
+  double at = 0;
+  double weight = 0;
+};
 constexpr double kRootOfThird = 0.57735026918962576451;
-constexpr std::array<double, 2> kNodes = {(1 - kRootOfThird) / 2, (1 + kRootOfThird) / 2};
+constexpr double kRootOfThreeFifths = 0.77459666924148337704;
+constexpr std::array<Node, 2> kTwoNodes = {{{(1 - kRootOfThird) / 2, 0.5}, {(1 + kRootOfThird) / 2, 0.5}}};
+constexpr std::array<Node, 3> kThreeNodes = {
+    {{(1 - kRootOfThreeFifths) / 2, 5.0 / 18}, {0.5, 8.0 / 18}, {(1 + kRootOfThreeFifths) / 2, 5.0 / 18}}};
 
 bool isMovable(const World& world, const std::optional<int>& body) {
   return body && !isImmovable(world.bodies[static_cast<std::size_t>(*body)].mass);
@@ -98,16 +106,21 @@ void ExternalOf::addLoads(std::size_t body, const Segment& segment, double from,
                           External& external) {
   const World& world = run_.world;
   const MassProperties& mass = world.bodies[body].mass;
+  const bool slopes = world.gravityPath == GravityPath::kLinear;
   const Vec3 gravity = meanGravity(world, from, to);
-  const Vec3 weight = mass.mass * gravity;
   const double length = to - from;
-  external.impulse += length * weight;
-  if (gravity.isZero(0) && !integrates_) {
+  external.impulse += length * (mass.mass * gravity);
+  if (gravity.isZero(0) && !integrates_ && !slopes) {
     return;
   }
-  for (const double node : kNodes) {
+  const Vec3 growth = slopes ? Vec3(gravityAt(world, to) - gravityAt(world, from)) : Vec3(Vec3::Zero());
+  for (const auto& [node, share] : slopes ? std::span<const Node>(kThreeNodes) : kTwoNodes) {
     const double elapsed = from + node * length - segment.start;
-    const double seconds = length / kNodes.size();
+    const double seconds = share * length;
+    const Vec3 weight = mass.mass * (gravity + (node - 0.5) * growth);
+    if (slopes) {
+      external.rise -= share * mass.mass * dot(growth, centerAt(segment.motion, elapsed) - origin_);
+    }
     if (!integrates_) {
       external.angularImpulse += seconds * (centerAt(segment.motion, elapsed) - origin_).cross(weight);
       continue;

@@ -29,6 +29,7 @@ struct External {
   std::optional<Vec3> belt;
   bool hasUnknownBelts = false;
   double work = 0;  ///< [J] of recorded impacts with boxes that move evenly, along their normals
+  double rise = 0;  ///< [J] of the energy of gravity while that slopes, heights from the group's origin
 };
 
 /// Follows a group through its run, from moment to moment.
@@ -38,7 +39,7 @@ class ExternalOf {
   ExternalOf(const Trajectory& run, const ExchangeGroup& group, Vec3 origin);
 
   /// From the last moment (at first 0 s) to this one [s]; torques of gravity are right to rounding if it does
-  /// not change between them.
+  /// not change between them, or grows evenly.
   External until(double time);
 
  private:

@@ -158,14 +158,17 @@ Holdings Books::at(std::size_t moment) const {
                   springEnergyAt(moment), gravityUntil(moment));
 }
 
-// [m/s²] That by which the energy at a moment counts: of one at which it changes, what was before.
+// [m/s²] That by which the energy at a moment counts: of one at which it jumps, what was before.
 Vec3 Books::gravityUntil(std::size_t moment) const {
+  if (run_.world.gravityPath == GravityPath::kLinear) {
+    return gravityAt(run_.world, samples_.times()[moment]);
+  }
   return gravityAt(run_.world, moment == 0 ? 0 : samples_.times()[moment - 1]);
 }
 
 // Gravity changes at that moment, and with it what the group may yet fall by.
 void Books::changeGravity(std::size_t moment) {
-  if (moment + 1 >= samples_.moments()) {
+  if (moment + 1 >= samples_.moments() || run_.world.gravityPath == GravityPath::kLinear) {
     return;
   }
   const Vec3 change = gravityUntil(moment + 1) - gravityUntil(moment);
@@ -347,6 +350,7 @@ void Books::spreadBelts(std::vector<External>& externals) const {
 
 void Books::balance(double time, const Holdings& now, External& external) {
   give(motors_.until(time));
+  give(external.rise);
   addWorkOfBelts(now, external);
   due_.momentum += external.impulse;
   due_.angularMomentum += external.angularImpulse;

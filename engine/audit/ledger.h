@@ -25,7 +25,7 @@ namespace careen {
 ///
 /// A wall whose surface moves along itself does work: that of its friction, which the group's momentum tells.
 /// While a group touches surfaces that move differently, one that turns, or a box whose surface moves, its
-/// energy may rise. Where gravity changes, the group has so much more by that.
+/// energy may rise. Where gravity changes, or slopes, the group has so much more by that.
 ///
 /// `fallingSpeeds` [m/s]: of each body, see seams.h.
 void checkBalances(const Trajectory& run, const Samples& samples, const std::vector<ExchangeGroup>& groups,

@@ -30,7 +30,8 @@ Vec3 centerIn(const Driven& driven, double elapsed) { return driven.at(elapsed).
 bool areFinite(const Pose& pose) { return pose.position.allFinite() && pose.worldFromBody.allFinite(); }
 bool areFinite(const Flight& flight) {
   return flight.position.allFinite() && flight.velocity.allFinite() && flight.acceleration.allFinite() &&
-         flight.worldFromBody.coeffs().allFinite() && flight.angularMomentum.allFinite();
+         flight.jerk.allFinite() && flight.worldFromBody.coeffs().allFinite() &&
+         flight.angularMomentum.allFinite();
 }
 
 bool areFinite(const BodyState& state) {

@@ -147,8 +147,10 @@ class Scene {
   /// Error if the scene was not begun in code.
   Scene& add(const Box& box);
   Scene& add(const Wall& wall);
-  /// What gravity [m/s²] is from each time [s] on; times ascend, the first is 0.
+  /// What gravity [m/s²] is from each time [s] on; times ascend, the first is 0. Or what it is at each of
+  /// them, straight from one to the next.
   Scene& gravity(const std::vector<std::pair<double, Vector>>& path);
+  Scene& gravityThrough(const std::vector<std::pair<double, Vector>>& path);
   /// Method ("exact", "listing1" …) and tolerance [m] in place of those of the scene.
   Scene& method(const std::string& name);
   Scene& tolerance(double metres);

@@ -95,6 +95,14 @@ Scene& Scene::gravity(const std::vector<std::pair<double, Vector>>& path) {
   return *this;
 }
 
+Scene& Scene::gravityThrough(const std::vector<std::pair<double, Vector>>& path) {
+  gravity(path);
+  Json json = Json::parse(text_);
+  json["gravity"]["linear"] = true;
+  text_ = json.dump();
+  return *this;
+}
+
 Scene& Scene::add(const Box& box) {
   requireBuilt();
   Json json = {{"mass", box.mass},

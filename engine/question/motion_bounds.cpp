@@ -56,11 +56,19 @@ void addFreeTurning(const MassProperties& mass, double spin, MotionBounds& bound
   bounds.angularVelocity.bend = kOfRounding * (2 * moments.uneven + 1) * spin * bounds.angularVelocity.rate;
 }
 
+// A velocity with jerk leaves its chord by at most that times t²/8.
+double leavesChord(double from, double to, double jerk) { return 0.125 * (to - from) * (to - from) * jerk; }
+
 MotionBounds flightBounds(const Flight& flight, const MassProperties& mass, double from, double to) {
   MotionBounds bounds;
-  bounds.speed = kOfRounding * std::max(flight.velocityAt(from).norm(), flight.velocityAt(to).norm());
-  bounds.place = {.rate = bounds.speed, .bend = flight.acceleration.norm()};
-  bounds.velocity = {.rate = flight.acceleration.norm()};
+  const double jerk = flight.jerk.norm();
+  const double acceleration = jerk == 0 ? flight.acceleration.norm()
+                                        : kOfRounding * std::max(flight.accelerationAt(from).norm(),
+                                                                 flight.accelerationAt(to).norm());
+  bounds.speed = kOfRounding * (std::max(flight.velocityAt(from).norm(), flight.velocityAt(to).norm()) +
+                                leavesChord(from, to, jerk));
+  bounds.place = {.rate = bounds.speed, .bend = acceleration};
+  bounds.velocity = {.rate = acceleration, .bend = jerk};
   // Of m = Jω both Σ mᵢ² = L² and Σ uᵢ mᵢ² = ω·L are constant, where uᵢ = 1/Jᵢ; and ω² = Σ uᵢ² mᵢ², where u²
   // is not above its chord from the least to the largest u.
   const BodyState start{.pose = {.worldFromBody = flight.worldFromBody.normalized().toRotationMatrix()},
@@ -152,8 +160,11 @@ struct BoundsAlong {
   RateBounds operator()(const Rest& /*rest*/) const { return {}; }
   RateBounds operator()(const Flight& flight) const {
     const double rate = std::max(std::fabs(direction.dot(flight.velocityAt(from))),
-                                 std::fabs(direction.dot(flight.velocityAt(to))));
-    return {.rate = kOfRounding * rate, .bend = kOfRounding * std::fabs(direction.dot(flight.acceleration))};
+                                 std::fabs(direction.dot(flight.velocityAt(to)))) +
+                        leavesChord(from, to, std::fabs(direction.dot(flight.jerk)));
+    const double bend = std::max(std::fabs(direction.dot(flight.accelerationAt(from))),
+                                 std::fabs(direction.dot(flight.accelerationAt(to))));
+    return {.rate = kOfRounding * rate, .bend = kOfRounding * bend};
   }
   RateBounds operator()(const SteppedFlight& stepped) const { return (*this)(stepped.start); }
   RateBounds operator()(const EulerStep& step) const {

@@ -122,7 +122,9 @@ RateBounds Pair::bounds() const {
       return (a->velocityAt(time - pieces_[0].segment.start) - b->velocityAt(time - pieces_[1].segment.start))
           .norm();
     };
-    speed = (1 + kSameMoment) * std::max(apart(pieces_.from()), apart(pieces_.to()));
+    const double width = pieces_.to() - pieces_.from();
+    speed = (1 + kSameMoment) * (std::max(apart(pieces_.from()), apart(pieces_.to())) +
+                                 0.125 * width * width * (a->jerk - b->jerk).norm());
   }
   return {.rate = speed + turning, .bend = std::numeric_limits<double>::infinity()};
 }

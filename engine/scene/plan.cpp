@@ -114,9 +114,11 @@ std::string methodsWith(bool MethodTraits::*trait) {
 std::string nameOf(Method method) { return std::string(traitsOf(method).name); }
 
 PlanItem gravity(const Scene& scene) {
-  const std::string changes = scene.gravityChanges.empty()
-                                  ? ""
-                                  : "; it changes " + counted(scene.gravityChanges.size(), "time", "times");
+  const std::string changes =
+      scene.gravityChanges.empty() ? ""
+      : scene.gravityPath == GravityPath::kLinear
+          ? "; it runs straight through " + counted(scene.gravityChanges.size() + 1, "point", "points")
+          : "; it changes " + counted(scene.gravityChanges.size(), "time", "times");
   return isPulled(scene) ? modelled("gravity", "the scene sets it" + changes)
                          : leftOut("gravity", "the scene has none");
 }
@@ -371,6 +373,7 @@ World assemble(const Scene& scene, const Plan& plan) {
   if (plan.models("gravity")) {
     world.gravity = scene.gravity;
     world.gravityChanges = scene.gravityChanges;
+    world.gravityPath = scene.gravityPath;
   }
   if (plan.models("box-wall")) {
     world.walls = wallsOf(scene);

@@ -53,6 +53,7 @@ struct Scene {
   std::string name = "untitled";
   Vec3 gravity = Vec3::Zero();                ///< [m/s²] at the start
   std::vector<GravityChange> gravityChanges;  ///< as in World
+  GravityPath gravityPath = GravityPath::kSteps;
   std::optional<Room> room;
   std::vector<Wall> walls;                               ///< the explicit walls; the room's come from `room`
   std::vector<std::optional<SoundMaterial>> wallSounds;  ///< of the explicit walls

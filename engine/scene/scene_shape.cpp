@@ -279,7 +279,10 @@ void readGravity(const JsonObject& scene, Scene& into) {
     into.gravity = scene.vector("gravity", anyNumber("m/s²"));
     return;
   }
-  const JsonValue path = value->object({"path"}).require("path");
+  const JsonObject object = value->object({"path", "linear"});
+  const JsonValue path = object.require("path");
+  const std::optional<JsonValue> linear = object.find("linear");
+  into.gravityPath = linear && linear->boolean() ? GravityPath::kLinear : GravityPath::kSteps;
   for (const JsonValue& point : path.elements("[[time, x, y, z], …]")) {
     const std::vector<JsonValue> numbers = point.elements("[time, x, y, z]", 4);
     GravityChange& change = into.gravityChanges.emplace_back();
@@ -290,6 +293,9 @@ void readGravity(const JsonObject& scene, Scene& into) {
   }
   if (into.gravityChanges.empty()) {
     path.fail("one point or more");
+  }
+  if (into.gravityPath == GravityPath::kLinear && into.gravityChanges.size() == 1) {
+    path.fail("two points or more, as it is linear");
   }
   into.gravity = into.gravityChanges.front().gravity;
 }

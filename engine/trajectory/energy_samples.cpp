@@ -1,5 +1,7 @@
 #include "trajectory/energy_samples.h"
 
+#include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "physics/world/forces.h"
@@ -11,6 +13,33 @@ std::vector<std::size_t> allJoints(const World& world) {
   std::vector<std::size_t> all(world.joints.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
+}
+
+// Gauss–Legendre with three nodes on [0, 1]: exact for polynomials of degree 5, as those of places are.
+struct WorkNode {
+  double at = 0;
+  double weight = 0;
+};
+constexpr double kRootOfThreeFifths = 0.77459666924148337704;
+constexpr std::array<WorkNode, 3> kWorkNodes = {
+    {{(1 - kRootOfThreeFifths) / 2, 5.0 / 18}, {0.5, 8.0 / 18}, {(1 + kRootOfThreeFifths) / 2, 5.0 / 18}}};
+
+// [m s] ∫ x dt of a body from one time [s] to another.
+Vec3 placeOverTime(const Trajectory& run, std::size_t body, double from, double to) {
+  const Segments& segments = run.tracks[body].segments;
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = std::max<std::size_t>(segments.countUntil(from), 1) - 1; k < segments.countUntil(to);
+       ++k) {
+    const Segment segment = segments[k];
+    const double begin = std::max(from, segment.start);
+    const double end = k + 1 < segments.size() ? std::min(to, segments[k + 1].start) : to;
+    for (const WorkNode& node : kWorkNodes) {
+      const double elapsed = begin - segment.start + node.at * (end - begin);
+      sum += node.weight * (end - begin) *
+             stateAt(segment.motion, run.world.bodies[body].mass, elapsed).pose.position;
+    }
+  }
+  return sum;
 }
 
 double energyOfSpring(double stiffness, double extension) { return 0.5 * stiffness * extension * extension; }
@@ -65,9 +94,32 @@ double EnergySamples::givenBy(std::size_t change) const {
   return given;
 }
 
+// [J] Since the last time, by gravity that slopes.
+double EnergySamples::givenUntil(double time) const {
+  const World& world = run_.world;
+  GravityChange from{.time = world.gravitySince, .gravity = world.gravity};
+  double given = 0;
+  for (const GravityChange& to : world.gravityChanges) {
+    const double begin = std::max(from.time, time_);
+    const double end = std::min(to.time, time);
+    const Vec3 slope = (to.gravity - from.gravity) / (to.time - from.time);
+    for (std::size_t body = 0; begin < end && !slope.isZero(0) && body < world.bodies.size(); ++body) {
+      const MassProperties& mass = world.bodies[body].mass;
+      given -= isImmovable(mass) ? 0 : mass.mass * dot(slope, placeOverTime(run_, body, begin, end));
+    }
+    from = to;
+  }
+  return given;
+}
+
 RunEnergies EnergySamples::at(double time) {
   const std::vector<BodyState> states = run_.states(time);
   motors_ += motorWork_.until(time);
+  if (run_.world.gravityPath == GravityPath::kLinear) {
+    changes_ += givenUntil(time);
+    gravities_ = run_.world.gravityChanges.size();
+    time_ = time;
+  }
   for (; gravities_ < run_.world.gravityChanges.size() && run_.world.gravityChanges[gravities_].time <= time;
        ++gravities_) {
     changes_ += givenBy(gravities_);

@@ -28,8 +28,10 @@ EnergyShares energySharesOf(const World& world, std::span<const BodyState> state
 /// shares.sum() − motors − changes + Σ of what was lost is the energy at the start.
 struct RunEnergies {
   EnergyShares shares;
-  double motors = 0;   ///< work of motors, as controls set their efforts
-  double changes = 0;  ///< by which that of gravity jumped where gravity changes: −M (g′ − g)·x
+  double motors = 0;  ///< work of motors, as controls set their efforts
+  /// By which that of gravity changed as gravity did: −M (g′ − g)·x where it jumps, −M ∫ (dg/dt)·x dt where
+  /// it slopes.
+  double changes = 0;
   EnergyLosses lost;
   /// What remains: lost in contact, by friction and in collisions of time steps, whose velocities do not jump
   /// at one moment; less the work of drives and of surfaces that move, whose forces are not recorded; and
@@ -76,12 +78,14 @@ class EnergySamples {
 
  private:
   double givenBy(std::size_t change) const;
+  double givenUntil(double time) const;
 
   const Trajectory& run_;
   double atStart_ = 0;  // [J]
   MotorWork motorWork_;
   double motors_ = 0;          // [J] until the last time
   double changes_ = 0;         // [J] likewise
+  double time_ = 0;            // [s] the last
   std::size_t gravities_ = 0;  // changes of gravity until then
   LossesOfRun losses_;
 };

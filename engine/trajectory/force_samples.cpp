@@ -186,7 +186,7 @@ std::vector<ContactPush> ForceSamples::at(double time) const {
   const std::vector<BodyState> states = run_.states(time);
   const World world = worldAt(time);
   std::vector<Load> loads;
-  computeLoads(world, states, loads);
+  computeLoads(world, world.gravity, states, loads);
   std::vector<PushedBody> bodies;
   for (std::size_t body = 0; body < states.size(); ++body) {
     bodies.push_back(pushed(body, time, states[body], loads[body]));

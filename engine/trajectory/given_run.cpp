@@ -81,6 +81,10 @@ class Giving {
                        ": its scene has " + whatHasCourses(run_.world) +
                        " that move; expected one whose fixed boxes and walls are still");
     }
+    if (run_.world.gravityPath == GravityPath::kLinear) {
+      throw InputError(table_.name +
+                       ": its scene has gravity that slopes; expected one whose gravity jumps at most");
+    }
     gather();
     setDuration();
     run_.tracks.resize(bodies().size());

@@ -55,7 +55,7 @@ bool isWithin(int index, std::size_t size) { return index >= 0 && static_cast<st
 
 bool isSound(const Flight& flight) {
   return flight.position.allFinite() && flight.velocity.allFinite() && flight.acceleration.allFinite() &&
-         flight.angularMomentum.allFinite() && isUnit(flight.worldFromBody.norm());
+         flight.jerk.allFinite() && flight.angularMomentum.allFinite() && isUnit(flight.worldFromBody.norm());
 }
 
 /// Whether a motion lasting `seconds` is valid in a run with these settings.
@@ -263,6 +263,8 @@ void checkWorld(const World& world) {
     require(change.time > before && std::isfinite(change.time), "changes of gravity out of order", "a world");
     before = change.time;
   }
+  require(world.gravityPath == GravityPath::kSteps || !world.gravityChanges.empty(),
+          "gravity that slopes to nowhere", "a world");
   checkNames(world);
   for (const Body& body : world.bodies) {
     checkBody(body);

@@ -21,7 +21,7 @@ namespace {
 
 // The line ends in the magic word reveal a transfer in text mode.
 constexpr std::string_view kFileMagic = "careen\r\n";
-constexpr std::uint64_t kVersion = 16;
+constexpr std::uint64_t kVersion = 17;
 constexpr std::uint64_t kVersionWithoutCrowds = 4;  // the oldest that is read
 constexpr std::uint64_t kVersionWithoutLight = 5;
 constexpr std::uint64_t kVersionWithoutPlacement = 6;
@@ -34,6 +34,7 @@ constexpr std::uint64_t kVersionOfOneBox = 12;      // for each body
 constexpr std::uint64_t kVersionWithoutCourses = 13;
 constexpr std::uint64_t kVersionWithoutScenery = 14;
 constexpr std::uint64_t kVersionOfStillWalls = 15;
+constexpr std::uint64_t kVersionOfSteps = 16;  // in gravity
 
 // A run since format version 9.
 template <class Archive>
@@ -48,6 +49,30 @@ void visitPacked(Archive& archive, Visited<Archive, Trajectory> run) {
     visitPacked(archive, run.tracks[k]);
   }
   visitAll(archive, run.impacts);
+}
+
+// Flights have a jerk where gravity slopes.
+template <class Archive>
+void visitSlopes(Archive& archive, Visited<Archive, Trajectory> run) {
+  if constexpr (Archive::kReads) {
+    run.world.gravityPath = GravityPath::kLinear;
+  }
+  for (auto& track : run.tracks) {
+    const auto visitJerk = [&](auto& segment) {
+      if (auto* flight = std::get_if<Flight>(&segment.motion)) {
+        visit(archive, flight->jerk);
+      }
+    };
+    if constexpr (Archive::kReads) {
+      for (Segment& segment : track.segments.open()) {
+        visitJerk(segment);
+      }
+    } else {
+      for (const Segment& segment : track.segments) {
+        visitJerk(segment);
+      }
+    }
+  }
 }
 
 // All but the hash of the last state, as that version has it.
@@ -117,14 +142,20 @@ void visitRecord(Archive& archive, Visited<Archive, Trajectory> run, std::uint64
       visitAll(archive, plane.course);
     }
   }
+  if (version > kVersionOfSteps) {
+    visitSlopes(archive, run);
+  }
 }
 
 // Older programs read runs without what they do not know.
 std::uint64_t versionOf(const Trajectory& run) {
+  if (run.world.gravityPath == GravityPath::kLinear) {
+    return kVersion;
+  }
   const auto moves = [](const auto& each) { return !each.course.empty(); };
   return std::any_of(run.world.walls.begin(), run.world.walls.end(), moves) ||
                  std::any_of(run.stage.planes.begin(), run.stage.planes.end(), moves)
-             ? kVersion
+             ? kVersionOfSteps
              : kVersionOfStillWalls;
 }
 

@@ -199,6 +199,16 @@ TEST_F(Library, simulatesASceneThatWasBuiltInCode) {
   EXPECT_EQ(simulate(Scene::read(folder_ / "built.json")).hash(), run.hash());
 }
 
+// Gravity that grows from none to 6 m/s² in 2 s, and stays: z = −t³/2 until then, and −4 − 6 s − 3 s² after
+// it.
+TEST_F(Library, gravityRunsThroughPoints) {
+  Scene scene(3.0);
+  scene.gravityThrough({{0, {0, 0, 0}}, {2, {0, 0, -6}}}).add(Box{.name = "box"});
+  const v1::Run run = simulate(scene);
+  EXPECT_NEAR(run.state(0, 1).position[2], -0.5, 1e-15);
+  EXPECT_NEAR(run.state(0, 3).position[2], -13, 1e-14);
+}
+
 // Euler's equations with a torque-free top: L = I ω keeps its direction, and the middle of the box circles
 // the centre of mass, which flies straight.
 // On a belt of 2 m/s, with friction of .5 g, a box is .4 m behind it when it has its speed; then gravity is
@@ -222,6 +232,7 @@ TEST_F(Library, surfacesMoveAndGravityChanges) {
                   .friction = 1});
   EXPECT_NEAR(simulate(turning).state(1, 1).angularVelocity[2], 3, 1e-7);
   EXPECT_THROW(Scene::parse("{}").gravity({{0, {0, 0, 0}}}), Error);
+  EXPECT_THROW(Scene::parse("{}").gravityThrough({{0, {0, 0, 0}}}), Error);
   EXPECT_THROW(static_cast<void>(simulate(Scene(1.0).gravity({{1, {0, 0, 0}}}).add(Box{.name = "box"}))),
                SceneError);
 }

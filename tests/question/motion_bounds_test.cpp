@@ -130,6 +130,9 @@ TEST(MotionBounds, hold) {
     const Vec3 direction = random.vector(1).normalized();
     const Flight flight = random.flight(mass);
     expectWithin(flight, mass, 0.7, direction, "flight");
+    Flight sloping = flight;
+    sloping.jerk = random.vector(20);
+    expectWithin(sloping, mass, 0.7, direction, "flight with jerk");
     expectWithin(random.polynomial<ContactStep>(0.3), mass, 0.3, direction, "contact step");
     expectWithin(random.polynomial<CrowdStep>(0.1), mass, 0.1, direction, "crowd step");
     expectWithin(Rest{.pose = random.state(mass).pose}, mass, 1, direction, "rest");

@@ -258,6 +258,23 @@ TEST(Assemble, gravityThatChangesIsOfTheMethodExact) {
       "scene untitled has gravity that changes, which method listing1 does not model; expected method exact");
 }
 
+TEST(Assemble, gravityMayRunStraightFromPointToPoint) {
+  const auto with = [](const std::string& linear) {
+    return withParts(R"("gravity": { "path": [[0, 0, 0, 0], [2, 0, 0, -1]], "linear": )" + linear +
+                     R"( }, "boxes": [)" + kBox + "]");
+  };
+  Scene scene = with("true");
+  EXPECT_EQ(reasonFor(scene, "gravity"), "modelled: the scene sets it; it runs straight through 2 points");
+  const World world = assemble(scene, plan(scene));
+  EXPECT_EQ(gravityAt(world, 1), Vec3(0, 0, -0.5));
+  EXPECT_EQ(world.gravityPath, GravityPath::kLinear);
+  EXPECT_EQ(gravityAt(assemble(with("false"), plan(with("false"))), 1), Vec3::Zero());
+  scene.settings.method = Method::kListing1;
+  EXPECT_EQ(
+      inputErrorOf([&] { assemble(scene, plan(scene)); }),
+      "scene untitled has gravity that changes, which method listing1 does not model; expected method exact");
+}
+
 // The crate is turned by 90° about z, so its x axis lies along the world's y: half sizes (0.25, 0.5, 0.125)
 // along the world's axes, mass 2 kg, ω = (3, 7, -2): L = 2/3 (0.5² + 0.125², 0.25² + 0.125², 0.25² + 0.5²) ·
 // ω.

@@ -35,6 +35,7 @@ struct TumblingBox {
   Vec3 position = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
   Vec3 gravity = Vec3::Zero();
+  Vec3 jerk = Vec3::Zero();
   Mat3 start = Mat3::Identity();
   Vec3 momentumAxis = Vec3::UnitZ();
   Vec3 spinAxis = Vec3::UnitX();  // body frame
@@ -48,7 +49,8 @@ struct TumblingBox {
   }
   template <class Real>
   Vector3<Real> centre(const Real& t) const {
-    return position.cast<Real>() + velocity.cast<Real>() * t + gravity.cast<Real>() * (t * t / 2);
+    return position.cast<Real>() + velocity.cast<Real>() * t + gravity.cast<Real>() * (t * t / 2) +
+           jerk.cast<Real>() * (t * t * t / 6);
   }
   template <class Real>
   std::array<Vector3<Real>, 8> corners(const Real& t) const {
@@ -77,7 +79,9 @@ struct TumblingBox {
             .acceleration = gravity,
             .angularSpeedBound = (spinning + precessing).norm() * (1 + 1e-14),
             .angularAccelerationBound = precessing.cross(spinning).norm() * (1 + 1e-14),
-            .attitude = AttitudeView(*this)};
+            .attitude = AttitudeView(*this),
+            .jerk = jerk,
+            .lasts = 2};
   }
 };
 
@@ -146,6 +150,7 @@ inline TumblingBox tumblingBox(Dice& dice, const Vec3& halfExtents, double speed
           .position = Vec3::Zero(),
           .velocity = dice.vector(speed),
           .gravity = Vec3::Zero(),
+          .jerk = Vec3::Zero(),
           .start = dice.orientation(),
           .momentumAxis = dice.direction(),
           .spinAxis = dice.direction(),

@@ -182,6 +182,24 @@ TEST(EnergySamples, aFreePairKeepsItsMomenta) {
   EXPECT_NEAR(end.remaining, 0, 1e-10);
 }
 
+// 2 kg fall from 3 m under gravity that goes from 10 m/s² down to none in 1 s: z = 3 − 5 t² + 5 t³/3, and −m
+// g·x = 2 (10 − 10 t) z loses 20 ∫ z dt by that until then, 20 (3 t − 5 t³/3 + 5 t⁴/12), and nothing after
+// it.
+TEST(EnergySamples, tellWhatSlopesOfGravityGive) {
+  World world = fallingDie(Vec3(0, 0, 3));
+  world.gravityChanges = {{.time = 1, .gravity = Vec3::Zero()}};
+  world.gravityPath = GravityPath::kLinear;
+  const Trajectory run = record(world, {.duration = 1.1}, "");
+  EnergySamples samples(run);
+  for (const double time : {0.3, 0.7, 1.0, 1.1}) {
+    const double t = std::min(time, 1.0);
+    const RunEnergies now = samples.at(time);
+    EXPECT_NEAR(now.changes, -20 * (3 * t - 5 * t * t * t / 3 + 5 * t * t * t * t / 12), 1e-12) << time;
+    EXPECT_NEAR(now.shares.sum() - now.changes, 60, 1e-12) << time;
+    EXPECT_NEAR(now.remaining, 0, 1e-12) << time;
+  }
+}
+
 // 2 kg fall from 3 m under 10 m/s² for .4 s, to 2.2 m, and go on under 5 upwards: that takes −2 (5 + 10) 2.2
 // J from m g z, which is −m g·x.
 TEST(EnergySamples, tellWhatChangesOfGravityGive) {

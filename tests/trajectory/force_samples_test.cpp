@@ -109,6 +109,20 @@ TEST(ForceSamples, leaveToSpringsDragAndGravityWhatIsTheirs) {
   EXPECT_LT((sumOf(samples.at(0.7)).force - Vec3(0, 0, 35)).norm(), 1e-9);
 }
 
+// A floor carries what gravity pulls at each moment: from 20 N to 60 N in 1 s, and 60 N from then on.
+TEST(ForceSamples, carryGravityThatSlopes) {
+  World world = onFloor(0.5);
+  world.bodies = {rough(box("box", Vec3::Constant(0.5), 2, Vec3(0, 0, 0.5)), 0.5)};
+  world.gravityChanges = {{.time = 1, .gravity = Vec3(0, 0, -3 * kPullOfForces)}};
+  world.gravityPath = GravityPath::kLinear;
+  const Trajectory run = record(world, {.duration = 1.5}, "");
+  const ForceSamples samples(run);
+  for (const double time : {0.2, 0.5, 0.9, 1.2}) {
+    const double due = 2 * kPullOfForces * (1 + 2 * std::min(time, 1.0));
+    EXPECT_LT((sumOf(samples.at(time)).force - Vec3(0, 0, due)).norm(), 1e-7) << time;
+  }
+}
+
 /// Gauss–Legendre with five nodes, exact for the velocities of steps.
 constexpr std::array<std::array<double, 2>, 5> kNodes = {{{0.04691007703066800, 0.11846344252809454},
                                                           {0.23076534494715845, 0.23931433524968324},

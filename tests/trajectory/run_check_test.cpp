@@ -48,6 +48,8 @@ const std::vector<Fault> kFaults = {
      [](Trajectory& run) {
        run.world.gravityChanges = {{.time = 0.5}, {.time = 0.5}};
      }},
+    {"has a world with gravity that slopes to nowhere",
+     [](Trajectory& run) { run.world.gravityPath = GravityPath::kLinear; }},
     {"has a world with a gravity that is not finite",
      [](Trajectory& run) { run.world.gravityChanges = {{.time = 0.5, .gravity = Vec3(0, kNoNumber, 0)}}; }},
     {"has a wall 'room+x' with a surface whose motion is not finite",

@@ -143,6 +143,24 @@ TEST(TrajectoryFile, bringsBackHowGravityChanges) {
   EXPECT_EQ(back.world.gravityChanges[1].gravity, Vec3(4, 5, 6));
 }
 
+// Runs in which it does not are of an earlier version.
+TEST(TrajectoryFile, bringsBackHowGravitySlopes) {
+  World world = elasticRoom();
+  world.gravityChanges = {{.time = 0.5, .gravity = Vec3(1, 2, 3)}};
+  const auto versionOf = [](const std::string& bytes) { return static_cast<int>(bytes[8]); };
+  EXPECT_EQ(versionOf(encodeTrajectory(record(world, {.duration = 0.7}, ""))), 15);
+  world.gravityPath = GravityPath::kLinear;
+  const Trajectory run = record(world, {.duration = 0.7}, "");
+  const std::string bytes = encodeTrajectory(run);
+  EXPECT_EQ(versionOf(bytes), 17);
+  const Trajectory back = decodeTrajectory(bytes, "run.careen");
+  EXPECT_EQ(back.world.gravityPath, GravityPath::kLinear);
+  const Segment first = back.tracks[0].segments.front();
+  EXPECT_EQ(std::get<Flight>(first.motion).jerk, gravitySlope(world));
+  EXPECT_EQ(back.state(0, 0.3).pose.position, run.state(0, 0.3).pose.position);
+  EXPECT_EQ(encodeTrajectory(back), bytes);
+}
+
 TEST(TrajectoryFile, bringsBackWhereTheCentreOfMassLiesAndItsAxes) {
   World world = elasticRoom();
   world.bodies[0].boxCenter = Vec3(0.1, -0.05, 0.02);
@@ -393,8 +411,8 @@ TEST(TrajectoryFile, keepsHowWallsMove) {
 
 TEST(TrajectoryFile, namesAnotherVersion) {
   std::string bytes = encodeTrajectory(driftAndReturn());
-  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 16: a newer careen wrote it"),
-                                        std::pair('\3', "3, expected 4 to 16: simulate its scene again")}) {
+  for (const auto& [version, remedy] : {std::pair('M', "77, expected 4 to 17: a newer careen wrote it"),
+                                        std::pair('\3', "3, expected 4 to 17: simulate its scene again")}) {
     bytes[8] = version;
     EXPECT_EQ(messageOf(withRightChecksum(bytes)),
               "run.careen: this trajectory file has format version " + std::string(remedy));

@@ -89,7 +89,7 @@ RunFigures Loop1997::run() {
   for (std::int64_t step = 1; time_ < settings_.duration; ++step) {
     advanceTo(stepEnd(step));
   }
-  computeLoads(world_, now_, loads_);
+  computeLoads(world_, world_.gravity, now_, loads_);
   record(time_);
   return account_.figures();
 }
@@ -101,7 +101,7 @@ void Loop1997::advanceTo(double end) {
       throw Interrupted();
     }
     recorder_.reaches(time_);
-    computeLoads(world_, now_, loads_);
+    computeLoads(world_, world_.gravity, now_, loads_);
     integrate(target - time_);
     const CornerCheck found = checkCorners(world_, next_);
     if (found.state == CornerState::kPenetrating) {

@@ -27,6 +27,13 @@ ContactForces::Mode closedMode(const ContactFeature& feature) {
   return feature.holds() ? Mode::kStick : feature.grips() ? Mode::kOff : Mode::kOn;
 }
 
+// [s] When they are there.
+double timeOf(std::span<const TouchingBody> bodies) {
+  const auto driven =
+      std::find_if(bodies.begin(), bodies.end(), [](const TouchingBody& body) { return body.isDriven(); });
+  return driven != bodies.end() ? driven->time : bodies.empty() ? 0 : bodies.front().time;
+}
+
 }  // namespace
 
 ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodies,
@@ -38,18 +45,20 @@ ContactSystem::ContactSystem(const World& world, std::vector<TouchingBody> bodie
       onset_(features_.size(), Vec3::Zero()),
       kinematics_(bodies_.size()),
       states_(features_.size()),
-      pushing_(features_.size()) {
-  pull_ = std::max(world.gravity.norm(), drivenAcceleration(bodies_));
+      pushing_(features_.size()),
+      time_(timeOf(bodies_)),
+      hasTime_(isGravitySloping(world)),
+      isCarried_(hasTime_) {
+  pull_ = std::max(gravityScale(world), drivenAcceleration(bodies_));
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TouchingBody& each = bodies_[i];
     places_.push_back(each.isHeld() ? kHeld : movers_.size());
-    isDriven_ = isDriven_ || each.isDriven();
-    isCarried_ =
-        isCarried_ || (each.isDriven() &&
-                       (each.isBox() || std::any_of(features_.begin(), features_.end(),
-                                                    [&](const ContactFeature& feature) {
-                                                      return feature.b == static_cast<int>(i);
-                                                    })));
+    hasTime_ = hasTime_ || each.isDriven();
+    isCarried_ = isCarried_ ||
+                 (each.isDriven() && (each.isBox() || std::any_of(features_.begin(), features_.end(),
+                                                                  [&](const ContactFeature& feature) {
+                                                                    return feature.b == static_cast<int>(i);
+                                                                  })));
     kinematics_[i].pose = {each.position, each.worldFromBody.toRotationMatrix()};
     if (!each.isHeld()) {
       movers_.push_back(i);
@@ -116,10 +125,8 @@ std::vector<double> ContactSystem::pack() const {
     setThree(y, m * kNumbers + 7, body.velocity);
     setThree(y, m * kNumbers + 10, body.angularVelocityBody);
   }
-  if (isDriven_) {
-    y.push_back(std::find_if(bodies_.begin(), bodies_.end(), [](const TouchingBody& body) {
-                  return body.isDriven();
-                })->time);
+  if (hasTime_) {
+    y.push_back(timeOf(bodies_));
   }
   return y;
 }
@@ -136,6 +143,7 @@ void ContactSystem::unpack(std::span<const double> y) {
     if (body.isDriven()) {
       body = drivenAt(body, y.back());
     }
+    body.time = hasTime_ ? y.back() : body.time;
   }
 }
 
@@ -147,9 +155,10 @@ void ContactSystem::look(std::span<const double> y) {
     at.velocity = threeAt(y, m * kNumbers + 7);
     at.angularVelocity = at.pose.worldFromBody * threeAt(y, m * kNumbers + 10);
   }
-  for (std::size_t i = 0; isDriven_ && i < bodies_.size(); ++i) {
+  time_ = hasTime_ ? y.back() : time_;
+  for (std::size_t i = 0; hasTime_ && i < bodies_.size(); ++i) {
     if (bodies_[i].isDriven()) {
-      kinematics_[i] = bodies_[i].drivenBy->at(y.back());
+      kinematics_[i] = bodies_[i].drivenBy->at(time_);
     }
   }
   for (std::size_t c = 0; c < features_.size(); ++c) {
@@ -206,6 +215,7 @@ void ContactSystem::fillContacts() {
 // Accelerations without contact forces.
 void ContactSystem::findFree() {
   std::vector<Load> loads;
+  const Vec3 gravity = gravityNow(*world_, time_);
   if (!worldStates_.empty()) {
     for (const std::size_t i : movers_) {
       TouchingBody at = bodies_[i];
@@ -216,14 +226,14 @@ void ContactSystem::findFree() {
           .velocity = kinematics_[i].velocity,
           .angularMomentum = careen::angularMomentum(at.body->mass, columns, kinematics_[i].angularVelocity)};
     }
-    computeLoads(*world_, worldStates_, loads);
+    computeLoads(*world_, gravity, worldStates_, loads);
   }
   for (std::size_t m = 0; m < movers_.size(); ++m) {
     const std::size_t i = movers_[m];
     const MassProperties& mass = bodies_[i].body->mass;
     const Mat3 columns = mass.worldFromPrincipal(kinematics_[i].pose.worldFromBody);
     const Vec3 spin = columns.transpose() * kinematics_[i].angularVelocity;
-    Vec3 linear = world_->gravity;
+    Vec3 linear = gravity;
     Vec3 torque = mass.inertiaBody.cwiseProduct(spin).cross(spin);
     if (!loads.empty()) {
       const Load& load = loads[static_cast<std::size_t>(bodies_[i].index)];
@@ -292,7 +302,7 @@ bool ContactSystem::rate(std::span<const double> y, std::vector<double>& dy) {
     setThree(dy, at + 7, threeAt(forces_.accelerations(), m * kSix));
     setThree(dy, at + 10, angularOf(forces_.accelerations(), m));
   }
-  if (isDriven_) {
+  if (hasTime_) {
     dy.back() = 1;
   }
   return found;
@@ -344,8 +354,8 @@ bool ContactSystem::keepMomenta(std::span<const double> before, double h, std::v
     }
   }
   const auto changes = changesToKeep(
-      *world_, bodies_, pushing, h, [&](std::size_t i) { return stateIn(before, i); },
-      [&](std::size_t i) { return stateIn(y, i); });
+      *world_, bodies_, pushing, hasTime_ ? before.back() : 0, h,
+      [&](std::size_t i) { return stateIn(before, i); }, [&](std::size_t i) { return stateIn(y, i); });
   for (const auto& [i, change] : changes) {
     const BodyState state = stateIn(y, i);
     const std::size_t at = places_[i] * kNumbers;

@@ -36,7 +36,8 @@ void forCorners(std::span<const TouchingBody> bodies, std::size_t box, const IsN
 /// contact forces that ContactForces finds.
 ///
 /// A state y has 13 numbers per movable body: position, quaternion w x y z, velocity, ω in the body's frame.
-/// Where some are driven it has one more, at its end: the time [s], on which these depend.
+/// Where some are driven, or gravity slopes, it has one more, at its end: the time [s], on which that
+/// depends.
 class ContactSystem {
  public:
   using Mode = ContactForces::Mode;
@@ -53,8 +54,9 @@ class ContactSystem {
                 std::span<const ContactFeature> joints = {});
 
   const std::vector<TouchingBody>& bodies() const { return bodies_; }
-  /// Whether any of them is driven; and whether any box is, or a wall that a feature is at.
-  bool isDriven() const { return isDriven_; }
+  /// Whether any of them is driven, or gravity slopes: time is part of the state. And whether they never
+  /// rest: any box is driven, or a wall that a feature is at, or gravity slopes.
+  bool hasTime() const { return hasTime_; }
   bool isCarried() const { return isCarried_; }
   const std::vector<ContactFeature>& features() const { return features_; }
   /// Ends of joints that are open, as slack ropes.
@@ -148,7 +150,8 @@ class ContactSystem {
   double restSpeed_ = 0;
   double radius_ = 0;
   double pull_ = 0;
-  bool isDriven_ = false;
+  double time_ = 0;  // [s] where they were last looked at
+  bool hasTime_ = false;
   bool isCarried_ = false;
 };
 

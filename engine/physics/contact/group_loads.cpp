@@ -16,19 +16,21 @@ void GroupLoads::find(const GroupState& at) {
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     loads_[i] = {};
     if (!group_.isHeld(i)) {
-      loads_[i].force = group_.body(i).mass.mass * group_.world().gravity;
+      loads_[i].force = group_.body(i).mass.mass * gravityNow(group_.world(), at[i].time);
     }
   }
-  if (!vary()) {
+  if (worldStates_.empty()) {
     return;
   }
+  Vec3 gravity = group_.world().gravity;
   const auto inWorld = [&](std::size_t i) { return static_cast<std::size_t>(group_.bodies()[i].index); };
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     if (!group_.isHeld(i)) {
       worldStates_[inWorld(i)] = at[i].state();
+      gravity = gravityNow(group_.world(), at[i].time);  // all are there at one time
     }
   }
-  computeLoads(group_.world(), worldStates_, worldLoads_);
+  computeLoads(group_.world(), gravity, worldStates_, worldLoads_);
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     if (!group_.isHeld(i)) {
       loads_[i] = worldLoads_[inWorld(i)];
@@ -38,7 +40,7 @@ void GroupLoads::find(const GroupState& at) {
 
 double GroupLoads::acceleration(const GroupState& at) {
   find(at);
-  double largest = 0;
+  double largest = isGravitySloping(group_.world()) ? gravityScale(group_.world()) : 0;
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     if (!group_.isHeld(i)) {
       const MassProperties& mass = group_.body(i).mass;
@@ -51,7 +53,7 @@ double GroupLoads::acceleration(const GroupState& at) {
 }
 
 double GroupLoads::pull(const GroupState& at) {
-  const double gravity = std::max(group_.world().gravity.norm(), drivenAcceleration(group_.bodies()));
+  const double gravity = std::max(gravityScale(group_.world()), drivenAcceleration(group_.bodies()));
   return vary() ? std::max(gravity, acceleration(at)) : gravity;
 }
 

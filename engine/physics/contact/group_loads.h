@@ -16,9 +16,9 @@ class GroupLoads {
   /// Finds them at a state; `[body]` is what was found last.
   void find(const GroupState& at);
   const Load& operator[](std::size_t body) const { return loads_[body]; }
-  /// Whether they depend on the state at all: springs and drag do.
-  bool vary() const { return !worldStates_.empty(); }
-  /// [m/s²] Largest acceleration by them at that state, corners included.
+  /// Whether they depend on the state at all, or on time: springs and drag do, and gravity if it slopes.
+  bool vary() const { return !worldStates_.empty() || isGravitySloping(group_.world()); }
+  /// [m/s²] Largest acceleration by them at that state, corners included; or of gravity later, if it slopes.
   double acceleration(const GroupState& at);
   /// [m/s²] The scale of such accelerations: gravity's, or the largest where springs or drag act.
   double pull(const GroupState& at);

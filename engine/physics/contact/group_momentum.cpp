@@ -107,11 +107,11 @@ GroupMomentum momentumOf(std::span<const GroupMember> members) {
 }
 
 std::optional<RigidChange> changeTo(const GroupMomentum& before, double h, const Vec3& gravity,
-                                    const GroupMomentum& now) {
-  const Vec3 moved = h * (before.velocity + (0.5 * h) * gravity);
+                                    const GroupMomentum& now, const Vec3& slope) {
+  const Vec3 moved = h * (before.velocity + (0.5 * h) * gravity + (h * h / 6) * slope);
   const RigidChange change{.center = now.center,
                            .shift = before.center + moved - now.center,
-                           .velocity = before.velocity + h * gravity - now.velocity,
+                           .velocity = before.velocity + h * gravity + (0.5 * h * h) * slope - now.velocity,
                            .turning = now.inertia.inverse() * (before.spin - now.spin)};
   const bool same = change.shift.norm() <= kSame * (now.center.norm() + moved.norm()) &&
                     change.velocity.norm() <= kSame * now.speed &&
@@ -119,11 +119,9 @@ std::optional<RigidChange> changeTo(const GroupMomentum& before, double h, const
   return same ? std::nullopt : std::optional(change);
 }
 
-std::vector<std::pair<std::size_t, RigidChange>> changesToKeep(const World& world,
-                                                               std::span<const TouchingBody> bodies,
-                                                               std::span<const ContactFeature> pushing,
-                                                               double h, const StateOfBody& before,
-                                                               const StateOfBody& now) {
+std::vector<std::pair<std::size_t, RigidChange>> changesToKeep(
+    const World& world, std::span<const TouchingBody> bodies, std::span<const ContactFeature> pushing,
+    double time, double h, const StateOfBody& before, const StateOfBody& now) {
   std::vector<std::pair<std::size_t, RigidChange>> changes;
   for (const std::vector<std::size_t>& group : freeGroups(world, bodies, pushing)) {
     const auto momentum = [&](const StateOfBody& stateOf) {
@@ -134,7 +132,8 @@ std::vector<std::pair<std::size_t, RigidChange>> changesToKeep(const World& worl
       }
       return momentumOf(members);
     };
-    if (const auto change = changeTo(momentum(before), h, world.gravity, momentum(now))) {
+    if (const auto change =
+            changeTo(momentum(before), h, gravityNow(world, time), momentum(now), gravitySlope(world))) {
       for (const std::size_t i : group) {
         changes.emplace_back(i, *change);
       }

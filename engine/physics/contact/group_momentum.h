@@ -51,18 +51,16 @@ struct RigidChange {
   Vec3 velocityAt(const Vec3& point) const { return velocity + turning.cross(point - center); }
 };
 
-/// What takes `before`, left alone under gravity [m/s²] for h [s], from `now` to where it has to be; nothing
-/// if they differ by rounding only.
+/// What takes `before`, left alone for h [s] under gravity, [m/s²] at first, that grows by `slope` [m/s³],
+/// from `now` to where it has to be; nothing if they differ by rounding only.
 std::optional<RigidChange> changeTo(const GroupMomentum& before, double h, const Vec3& gravity,
-                                    const GroupMomentum& now);
+                                    const GroupMomentum& now, const Vec3& slope = Vec3::Zero());
 
 /// Of each body, by its index, that has to move so that the groups of those that only push each other get the
-/// momenta that they had `h` [s] before. `before`, `now`: the states of a body.
+/// momenta that they had `h` [s] before, at a time [s]. `before`, `now`: the states of a body.
 using StateOfBody = std::function<BodyState(std::size_t)>;
-std::vector<std::pair<std::size_t, RigidChange>> changesToKeep(const World& world,
-                                                               std::span<const TouchingBody> bodies,
-                                                               std::span<const ContactFeature> pushing,
-                                                               double h, const StateOfBody& before,
-                                                               const StateOfBody& now);
+std::vector<std::pair<std::size_t, RigidChange>> changesToKeep(
+    const World& world, std::span<const TouchingBody> bodies, std::span<const ContactFeature> pushing,
+    double time, double h, const StateOfBody& before, const StateOfBody& now);
 
 }  // namespace careen

@@ -4,6 +4,20 @@
 
 namespace careen {
 
+// Accelerations of the middles of both halves become those of the ends, as they grow evenly: by themselves in
+// flight. In contact one may be 0 because it began to move, or came to rest, in between: neither turns over.
+void GroupStep::bend(Vec3& from, Vec3& to) const {
+  constexpr double kFree = 0x1p-10;
+  Vec3 more = 0.5 * (to - from);
+  const Vec3 free = (0.25 * length) * slope;
+  if ((more - free).norm() > kFree * free.norm()) {
+    const Vec3 most = from.cwiseAbs().cwiseMin(to.cwiseAbs());
+    more = more.cwiseMin(most).cwiseMax(-most);
+  }
+  from -= more;
+  to += more;
+}
+
 ContactStep GroupStep::motion(const TouchingBody& body, std::size_t index) const {
   const auto ofEnd = [&](const GroupState& at) {
     const GroupBody& state = at[index];
@@ -29,6 +43,9 @@ ContactStep GroupStep::motion(const TouchingBody& body, std::size_t index) const
     to.acceleration = (to.velocity - between.velocity) / half;
     from.spinRateBody = (between.spinBody - from.spinBody) / half;
     to.spinRateBody = (to.spinBody - between.spinBody) / half;
+    if (!slope.isZero(0)) {
+      bend(from.acceleration, to.acceleration);
+    }
   }
   return hermiteStep(from, to, length);
 }
@@ -53,7 +70,8 @@ GroupBody GroupPath::at(std::size_t body, double time) const {
   return {.position = state.pose.position,
           .worldFromBody = Quat(state.pose.worldFromBody),
           .velocity = state.velocity,
-          .angularMomentum = state.angularMomentum};
+          .angularMomentum = state.angularMomentum,
+          .time = step_.start[body].time + time};
 }
 
 }  // namespace careen

@@ -13,10 +13,14 @@ struct GroupStep {
   double length = 0;  ///< [s]
   GroupState start = {};
   GroupState end = {};
-  GroupState middle = {};  ///< where two steps of half the length are joined; empty if it is one
+  GroupState middle = {};     ///< where two steps of half the length are joined; empty if it is one
+  Vec3 slope = Vec3::Zero();  ///< [m/s³] of gravity
 
   /// The polynomials of a body that is not held.
   ContactStep motion(const TouchingBody& body, std::size_t index) const;
+
+ private:
+  void bend(Vec3& from, Vec3& to) const;
 };
 
 /// The motions of all bodies in a step, which must outlive it.

@@ -84,6 +84,7 @@ void ImplicitStep::turn(const GroupState& from, double h, GroupState& to) const 
         group_.angularVelocity(i, middleOf(from[i].worldFromBody, to[i].worldFromBody).toRotationMatrix(),
                                0.5 * (from[i].angularMomentum + to[i].angularMomentum));
     to[i].worldFromBody = (rotationBy(h * spin) * from[i].worldFromBody).normalized();
+    to[i].time = from[i].time + h;
   }
 }
 
@@ -107,7 +108,8 @@ void ImplicitStep::findMiddle(const GroupState& from, double h, const GroupState
       middle_[i] = {.position = 0.5 * (from[i].position + to[i].position),
                     .worldFromBody = middleOf(from[i].worldFromBody, to[i].worldFromBody),
                     .velocity = 0.5 * (from[i].velocity + to[i].velocity),
-                    .angularMomentum = 0.5 * (from[i].angularMomentum + to[i].angularMomentum)};
+                    .angularMomentum = 0.5 * (from[i].angularMomentum + to[i].angularMomentum),
+                    .time = from[i].time + 0.5 * h};
     }
   }
 }

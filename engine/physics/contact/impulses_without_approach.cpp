@@ -71,7 +71,7 @@ std::optional<JammedMoment> jammedMomentOf(const GroupStep& step, const FoundCon
   const double acceleration = equations.loads().acceleration(step.start);
   const double part =
       acceleration > 0 ? std::min(kMoment, std::sqrt(0.25 * closed / acceleration) / step.length) : kMoment;
-  JammedMoment moment{.step = {.length = part * step.length, .start = step.start},
+  JammedMoment moment{.step = {.length = part * step.length, .start = step.start, .slope = step.slope},
                       .law = contacts.obeying(step.length, known),
                       .part = part,
                       .change = change};

@@ -37,7 +37,7 @@ double timeUnderSprings(const World& world, double tolerance) {
 }  // namespace
 
 double timeScaleOf(const World& world, double tolerance) {
-  const double gravity = world.gravity.norm();
+  const double gravity = gravityScale(world);
   if (gravity > 0) {
     return std::sqrt(tolerance / gravity);
   }
@@ -176,7 +176,7 @@ void Island::adopt() {
   deepest_ = std::max(deepest_, stepper.deepest());
   SmoothStep::State& state = step_.state();
   for (std::size_t i = 0; i < bodies().size(); ++i) {
-    if (bodies()[i].isDriven()) {
+    if (system_.hasTime() && (bodies()[i].isDriven() || !bodies()[i].isHeld())) {
       state.back() = stepper.state()[i].time;
     }
     if (bodies()[i].isHeld()) {

@@ -26,7 +26,7 @@ bool KeptEnergy::isConstant() const {
     }
     holds = holds || feature.isOfJoint();
   }
-  return holds && !world_.drag && world_.springs.empty() &&
+  return holds && !isGravitySloping(world_) && !world_.drag && world_.springs.empty() &&
          std::all_of(world_.joints.begin(), world_.joints.end(), [](const Joint& joint) {
            return joint.damping == 0 && joint.effort == 0 && joint.grip == 0;
          });

@@ -9,10 +9,10 @@
 namespace careen {
 
 /// Energy of bodies that only joints hold, and nothing takes or gives any: no contact pushes, no drag, damper
-/// or motor acts. Each step's error changes it a little, and over many swings that is what moves a pendulum
-/// off its place in time. Scaling the velocities about the group's rigid motion puts it right, and no joint
-/// notices: its rates are linear in them. (E. Hairer, Ch. Lubich, G. Wanner, "Geometric Numerical
-/// Integration", IV.4: projection on invariants.)
+/// or motor acts, and gravity is constant. Each step's error changes it a little, and over many swings that
+/// is what moves a pendulum off its place in time. Scaling the velocities about the group's rigid motion puts
+/// it right, and no joint notices: its rates are linear in them. (E. Hairer, Ch. Lubich, G. Wanner,
+/// "Geometric Numerical Integration", IV.4: projection on invariants.)
 class KeptEnergy {
  public:
   /// Both must outlive it.

@@ -69,8 +69,10 @@ bool SmoothStep::begin() {
     springs_.end();
     energy_.begin(end_.y);
   } else {
-    springs_.begin(end_.y);
     energy_.end();
+    if (!isGravitySloping(world_)) {
+      springs_.begin(end_.y);
+    }
   }
   if (goesOn_) {
     start_ = end_;
@@ -188,7 +190,7 @@ void SmoothStep::finish() {
       end_.y[k] /= size;
     }
   }
-  if (system_.isDriven()) {
+  if (system_.hasTime()) {
     end_.y.back() = start_.y.back() + length_;
   }
   const bool kept = system_.keepMomenta(start_.y, length_, end_.y);
@@ -273,7 +275,7 @@ SmoothStep::State SmoothStep::stateWithin(std::span<const ContactStep> motions, 
     setThree(state, at + 10,
              mass.inverseInertiaTimes(body.pose.worldFromBody.transpose() * body.angularMomentum));
   }
-  if (system_.isDriven()) {
+  if (system_.hasTime()) {
     state.back() = start_.y.back() + time;
   }
   return state;
@@ -325,9 +327,15 @@ bool SmoothStep::isMovedByCorrection() const {
 }
 
 bool SmoothStep::gainsEnergy() const {
-  if (hasSprings(world_) || system_.isDriven()) {
+  const bool isDriven = std::any_of(system_.bodies().begin(), system_.bodies().end(),
+                                    [](const TouchingBody& body) { return body.isDriven(); });
+  if (hasSprings(world_) || isDriven) {
     return false;
   }
+  // Of speeds that grow evenly ∫ g·v is that of gravity halfway, and ġ·Δv h²/12.
+  const Vec3 gravity =
+      system_.hasTime() ? gravityNow(world_, start_.y.back() + 0.5 * length_) : world_.gravity;
+  const Vec3 slope = (length_ * length_ / 12) * gravitySlope(world_);
   double motion = 0;  // [J] before and after
   double gained = 0;  // [J] not by gravity
   double weight = 0;  // [N]
@@ -344,7 +352,8 @@ bool SmoothStep::gainsEnergy() const {
     const double before = energy(start_.y);
     const double after = energy(end_.y);
     motion += before + after;
-    gained += after - before - mass.mass * dot(world_.gravity, threeAt(end_.y, at) - threeAt(start_.y, at));
+    gained += after - before - mass.mass * dot(gravity, threeAt(end_.y, at) - threeAt(start_.y, at)) -
+              mass.mass * dot(slope, threeAt(end_.y, at + 7) - threeAt(start_.y, at + 7));
     weight += mass.mass * system_.pull();
     at += ContactSystem::kNumbers;
   }

@@ -18,7 +18,7 @@ struct TouchingBody {
   Vec3 velocity = Vec3::Zero();             ///< [m/s]
   Vec3 angularVelocityBody = Vec3::Zero();  ///< [rad/s] body frame
   const CoursePart* drivenBy = nullptr;     ///< if it is driven: by that
-  double time = 0;                          ///< [s] likewise: when it is there
+  double time = 0;                          ///< [s] when it is there
 
   bool isDriven() const { return drivenBy != nullptr; }
   bool isHeld() const { return isImmovable(body->mass); }

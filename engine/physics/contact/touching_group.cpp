@@ -29,7 +29,8 @@ GroupState TouchingGroup::state() const {
     all.push_back({.position = body.position,
                    .worldFromBody = body.worldFromBody,
                    .velocity = body.isHeld() ? Vec3(Vec3::Zero()) : state.velocity,
-                   .angularMomentum = body.isHeld() ? Vec3(Vec3::Zero()) : state.angularMomentum});
+                   .angularMomentum = body.isHeld() ? Vec3(Vec3::Zero()) : state.angularMomentum,
+                   .time = body.time});
   }
   return all;
 }
@@ -117,8 +118,15 @@ void TouchingGroup::contactsAt(std::span<const ContactFeature> features, const G
 
 void TouchingGroup::keepMomenta(const GroupState& before, double h, std::span<const ContactFeature> pushing,
                                 GroupState& to) const {
+  const auto mover =
+      std::find_if(bodies_.begin(), bodies_.end(), [](const TouchingBody& body) { return !body.isHeld(); });
+  if (mover == bodies_.end()) {
+    return;
+  }
+  const double time = before[static_cast<std::size_t>(mover - bodies_.begin())].time;
   const auto stateIn = [](const GroupState& all) { return [&all](std::size_t i) { return all[i].state(); }; };
-  for (const auto& [i, change] : changesToKeep(world_, bodies_, pushing, h, stateIn(before), stateIn(to))) {
+  for (const auto& [i, change] :
+       changesToKeep(world_, bodies_, pushing, time, h, stateIn(before), stateIn(to))) {
     GroupBody& at = to[i];
     at.velocity += change.velocityAt(at.position);
     at.position += change.shift;

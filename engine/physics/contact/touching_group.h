@@ -17,7 +17,7 @@ struct GroupBody {
   Quat worldFromBody = Quat::Identity();
   Vec3 velocity = Vec3::Zero();         ///< [m/s]
   Vec3 angularMomentum = Vec3::Zero();  ///< [kg m²/s]
-  double time = 0;                      ///< [s] of what is driven: when it is there
+  double time = 0;                      ///< [s] when it is there, if it moves
 
   Pose pose() const { return {position, worldFromBody.toRotationMatrix()}; }
   BodyState state() const { return {pose(), velocity, angularMomentum}; }

@@ -93,13 +93,14 @@ void settleBody(const Bodies& bodies, Encounter& encounter, std::size_t index, c
   const Vec3 omegaRate = inverseInertiaWorld(body.mass, state.pose.worldFromBody) *
                          (load.torque + state.angularMomentum.cross(omega));
   const bool isPulled = bodies.isForced(each.mover->rank);
-  const Vec3 pull = isPulled ? Vec3(body.mass.inverseMass * load.force) : bodies.world().gravity;
+  const Vec3 gravity = gravityNow(bodies.world(), encounter.time.hi);
+  const Vec3 pull = isPulled ? Vec3(body.mass.inverseMass * load.force) : gravity;
   double tail = -1;
-  bool alone = !isPulled;
+  bool alone = !isPulled && !isGravitySloping(bodies.world());
   Settling settling;
   settling.velocity = state.velocity;
   settling.angularVelocity = omega;
-  settling.gravity = bodies.world().gravity;
+  settling.gravity = gravity;
   std::vector<Vec3> arms;
   for (std::size_t k = 0; k < encounter.contacts.size(); ++k) {
     const ImpactContact& contact = encounter.contacts[k];
@@ -205,7 +206,8 @@ void settle(Bodies& bodies, Encounter& encounter) {
   findChattering(bodies, encounter);
   std::vector<Load> loads;
   if (isAnyForced(bodies, encounter)) {
-    computeLoads(bodies.world(), statesIn(bodies.world(), encounter, &EncounterBody::after), loads);
+    computeLoads(bodies.world(), gravityNow(bodies.world(), encounter.time.hi),
+                 statesIn(bodies.world(), encounter, &EncounterBody::after), loads);
   }
   for (std::size_t i = 0; i < encounter.bodies.size(); ++i) {
     EncounterBody& body = encounter.bodies[i];

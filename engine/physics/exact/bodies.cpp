@@ -47,6 +47,17 @@ Doubt ofRounding(const Body& body) {
           .speed = kRounding * fastestPoint(body, body.initial)};
 }
 
+// [m²/s²] What gravity beyond `usual` [m/s²] gives in a flight of so long [s]: ∫ (g − usual)·v, by parts.
+double workOfChange(const Flight& flight, const Vec3& usual, double elapsed) {
+  if (flight.jerk.isZero(0)) {
+    return 0;
+  }
+  const Vec3 way = flight.positionAt(elapsed) - flight.position;
+  const Vec3 area = (elapsed * elapsed) * (0.5 * flight.velocity + (elapsed / 6) * flight.acceleration +
+                                           (elapsed * elapsed / 24) * flight.jerk);  // of that way over time
+  return dot(flight.accelerationAt(elapsed) - usual, way) - dot(flight.jerk, area);
+}
+
 struct Bond {
   int from = 0;           // index of a body on which more than gravity acts
   std::optional<int> to;  // that moves with it
@@ -186,8 +197,8 @@ std::vector<int> Bodies::around(int rank) const {
 
 std::vector<int> Bodies::mayReach(const Vec3& low, const Vec3& high, const Instant& time,
                                   double length) const {
-  const double gained = length * world_.gravity.norm();
-  const double speed = std::max(0.0, fastestAtZero_ + time.hi * world_.gravity.norm()) + 2 * gained;
+  const double gained = length * gravityScale(world_);
+  const double speed = std::max(0.0, fastestAtZero_ + time.hi * gravityScale(world_)) + 2 * gained;
   // They are filed where they are now, which is on their way.
   const Vec3 way = Vec3::Constant(2 * length * (speed + gained));
   std::vector<int> found;
@@ -200,11 +211,11 @@ std::vector<int> Bodies::mayReach(const Vec3& low, const Vec3& high, const Insta
 void Bodies::fly(int rank, const Instant& time, const BodyState& state, const Quat& attitude) {
   Mover& body = (*this)[rank];
   begins(rank, time);
-  body.fly(state, attitude, world_.gravity);
+  body.fly(state, attitude, gravityNow(world_, time.hi), gravitySlope(world_));
   recorder_.moves(body.listed, time.hi, body.flight);
   account_.departs(static_cast<std::size_t>(body.listed.value), state);
   noteSpeed(body);
-  body.wall = firstWall(body, walls(), end_);
+  body.wall = firstWall(body, walls(), foreseen());
   body.crossing = {};
   findCrossing(rank);
 }
@@ -244,7 +255,7 @@ void Bodies::step(const std::shared_ptr<ContactGroup>& group, std::size_t place)
 void Bodies::noteSpeed(const Mover& body) {
   const auto note = [&](const Mover& each) {
     const double speed = each.flies() ? each.flight.velocity.norm() : each.bounds.speed;
-    fastestAtZero_ = std::max(fastestAtZero_, speed - each.start.hi * world_.gravity.norm());
+    fastestAtZero_ = std::max(fastestAtZero_, speed - each.start.hi * gravityScale(world_));
   };
   if (++noted_ > count()) {
     noted_ = 0;
@@ -289,7 +300,10 @@ void Bodies::strike(const Instant& time, int rank, int with, const Vec3& point, 
 }
 
 void Bodies::arrive(const Mover& body, const Instant& time, const BodyState& state) {
-  account_.arrives(static_cast<std::size_t>(body.listed.value), state, body.elapsed(time));
+  const double elapsed = body.elapsed(time);
+  account_.gives(body.body->mass.mass * workOfChange(body.flight, world_.gravity, elapsed));
+  account_.arrives(static_cast<std::size_t>(body.listed.value), state, elapsed,
+                   body.flight.accelerationAt(0.5 * elapsed) - world_.gravity);
 }
 
 Doubt* Bodies::doubtAt(int rank, const Instant& time) {
@@ -307,6 +321,10 @@ Doubt* Bodies::doubtAt(int rank, const Instant& time) {
 }
 
 // ---- Prediction of events.
+
+Instant Bodies::foreseen() const {
+  return isGravitySloping(world_) ? Instant(world_.gravityChanges.front().time) : end_;
+}
 
 void Bodies::predict(int rank) {
   const Mover& body = (*this)[rank];
@@ -342,7 +360,7 @@ void Bodies::predict(int rank) {
       continue;
     }
     if (mayTouch(world_, body.listed.value, (*this)[candidate].listed.value)) {
-      takeSooner(first, firstMeeting(body, (*this)[candidate], first ? first->time : end_));
+      takeSooner(first, firstMeeting(body, (*this)[candidate], foreseen(), first ? first->time : foreseen()));
     }
   }
   if (first) {
@@ -410,8 +428,7 @@ void Bodies::findCrossing(int rank) {
     body.crossing =
         neighbors_.nextCrossing(body.group->motion(body.place), body.bounds.speed, cell, body.crossing.time);
   } else {
-    body.crossing = neighbors_.nextCrossing(body.flight.position, body.flight.velocity,
-                                            body.flight.acceleration, cell, body.crossing.time);
+    body.crossing = neighbors_.nextCrossing(body.flight, body.elapsed(foreseen()), cell, body.crossing.time);
   }
 }
 
@@ -420,7 +437,7 @@ double Bodies::withinCell(double speed) const {
     return longestStep_;
   }
   const double margin = neighbors_.cellEdge() / 32;
-  const double acceleration = 8 * world_.gravity.norm();
+  const double acceleration = 8 * gravityScale(world_);
   // speed t + acceleration t²/2 ≤ margin
   return speed + acceleration > 0
              ? std::min(longestStep_,

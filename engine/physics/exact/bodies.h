@@ -36,7 +36,9 @@ class Bodies {
 
   const World& world() const { return world_; }
   const ChangingWorld* changing() const { return changing_; }
-  const Instant& end() const { return end_; }          ///< of the run
+  const Instant& end() const { return end_; }  ///< of the run
+  /// Until when flights are: the end of the run, or where gravity, if it slopes, does so otherwise.
+  Instant foreseen() const;
   double tolerance() const { return tolerance_; }      ///< [m]
   double timeScale() const { return timeScale_; }      ///< [s] see timeScaleOf
   double longestStep() const { return longestStep_; }  ///< [s] of an island

@@ -28,10 +28,7 @@ ChangingWorld::ChangingWorld(const World& world)
 }
 
 double ChangingWorld::nextGravity() const {
-  if (gravities_ == world_.gravityChanges.size()) {
-    return kNever;
-  }
-  return world_.gravityChanges[gravities_].time;
+  return world_.gravityChanges.empty() ? kNever : world_.gravityChanges.front().time;
 }
 
 void ChangingWorld::findNextPart(double after) {
@@ -47,7 +44,9 @@ void ChangingWorld::findNextPart(double after) {
 void ChangingWorld::jump() {
   const double time = nextJump();
   if (nextGravity() <= time) {
-    world_.gravity = world_.gravityChanges[gravities_++].gravity;
+    world_.gravity = world_.gravityChanges.front().gravity;
+    world_.gravitySince = world_.gravityChanges.front().time;
+    world_.gravityChanges.erase(world_.gravityChanges.begin());
   }
   findNextPart(time);
 }

@@ -19,7 +19,7 @@ class ChangingWorld {
   explicit ChangingWorld(const World& world);
 
   const World& world() const { return world_; }
-  /// [s] When gravity changes next, or something driven jumps to another speed.
+  /// [s] When gravity changes next, or begins to in another way, or something driven jumps to another speed.
   double nextJump() const { return std::min(nextGravity(), nextPart_); }
   /// That moment comes.
   void jump();
@@ -38,8 +38,7 @@ class ChangingWorld {
   void sample(double time, std::span<const BodyState> states, Recorder& recorder);
   std::vector<JointEffort> release(double time);
 
-  World world_;
-  std::size_t gravities_ = 0;  // how often gravity has changed
+  World world_;  // whose changes of gravity are those to come
   double nextPart_ = std::numeric_limits<double>::infinity();
   std::vector<JointSample> samples_;  // by joint, of the last sample
   std::vector<char> isDriven_;        // by joint: its effort may change

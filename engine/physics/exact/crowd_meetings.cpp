@@ -56,11 +56,13 @@ ContactStep unpushed(const Crowd& crowd, std::size_t place, const Vec3& gravity,
 
 // Whether any box of a body meets one of another in so long [s] from `time` on; `moving(box)` of the other.
 template <class Moving>
-bool anyMeet(const Mover& body, const Instant& time, const Body& other, double length, const Moving& moving) {
+bool anyMeet(const Bodies& bodies, const Mover& body, const Instant& time, const Body& other, double length,
+             const Moving& moving) {
   for (int i = 0; i < body.body->partCount(); ++i) {
     for (int j = 0; j < other.partCount(); ++j) {
-      if (firstContactOfBoxes(body.moving(time, i), moving(j), {.from = 0, .until = length}).kind !=
-          ContactKind::kNone) {
+      if (firstContactOfBoxes(body.moving(time, i, bodies.foreseen()), moving(j),
+                              {.from = 0, .until = length})
+              .kind != ContactKind::kNone) {
         return true;
       }
     }
@@ -70,10 +72,12 @@ bool anyMeet(const Mover& body, const Instant& time, const Body& other, double l
 
 bool meetsWithin(const Bodies& bodies, const CrowdGroup& group, const Mover& outsider, const Mover& member,
                  const Instant& time, double length) {
-  const MemberStep step(*member.body, unpushed(group.crowd(), member.place, bodies.world().gravity, length));
+  const MemberStep step(*member.body, unpushed(group.crowd(), member.place,
+                                               gravityNow(bodies.world(), time.hi + 0.5 * length), length));
   const bool sleeps = group.crowd().sleeps(member.place);
-  return anyMeet(outsider, time, *member.body, length,
-                 [&](int box) { return sleeps ? member.moving(time, box) : step.moving(box); });
+  return anyMeet(bodies, outsider, time, *member.body, length, [&](int box) {
+    return sleeps ? member.moving(time, box, bodies.foreseen()) : step.moving(box);
+  });
 }
 
 /// Whether any member in the cells around that body, which may touch it, does that.
@@ -105,7 +109,7 @@ std::vector<int> outsidersIn(const Bodies& bodies, const CrowdGroup& group, cons
       continue;
     }
     const double way = body.flies()   ? length * (body.flight.velocityAt(body.elapsed(time)).norm() +
-                                                length * bodies.world().gravity.norm())
+                                                length * gravityScale(bodies.world()))
                        : body.moves() ? length * body.bounds.speed
                                       : 0;
     const Vec3 reach = Vec3::Constant(radiusOf(*body.body) + way);
@@ -134,7 +138,8 @@ bool wasMet(const Bodies& bodies, const CrowdGroup& group, int rank, const Insta
            const MemberStep step(
                *member.body,
                asContactStep(cubicStep(crowd.begin(member.place), crowd.end(member.place), crowd.length())));
-           return anyMeet(body, time, *member.body, length, [&](int box) { return step.moving(box); });
+           return anyMeet(bodies, body, time, *member.body, length,
+                          [&](int box) { return step.moving(box); });
          });
 }
 
@@ -156,7 +161,7 @@ bool meetsNext(const Bodies& bodies, const CrowdGroup& group, int rank, const In
     const double way =
         bodies.crowds().tolerance +
         within * ((state.velocity - at.velocity).norm() + turning + at.radius * at.omega.norm() +
-                  (within + at.behind) * bodies.world().gravity.norm());
+                  (within + at.behind) * gravityScale(bodies.world()));
     if ((state.pose.position - at.position).norm() > radius + at.radius + way ||
         !anyBoxes(*body.body, state.pose, *member.body, stateOf(at).pose,
                   [&](const BoxAt& a, const BoxAt& b) { return BoxAxes(a, b).gap() <= way; })) {
@@ -180,8 +185,8 @@ std::vector<int> nearStep(const Bodies& bodies, const CrowdGroup& group) {
     const double speed =
         state.velocity.norm() + angularVelocity(body.body->mass, state).norm() * radiusOf(*body.body);
     const double way =
-        length * (body.steps() || body.isDriven() ? body.bounds.speed
-                                                  : speed + length * bodies.world().gravity.norm());
+        length *
+        (body.steps() || body.isDriven() ? body.bounds.speed : speed + length * gravityScale(bodies.world()));
     return !anyMember(bodies, group, rank, [&](const Mover& member) {
       return group.crowd().cameNear(member.place, *body.body, state.pose, way);
     });

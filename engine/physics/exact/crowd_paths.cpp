@@ -12,7 +12,7 @@ constexpr double kMergedAfloat = 0x1p-4;
 }  // namespace
 
 JoinedSteps newPath(const Bodies& bodies, int rank) {
-  const bool isAfloat = bodies.world().gravity.isZero(0) || !bodies.joinedTo(rank).empty();
+  const bool isAfloat = gravityScale(bodies.world()) == 0 || !bodies.joinedTo(rank).empty();
   return JoinedSteps(kMerged * bodies.crowds().tolerance * (isAfloat ? kMergedAfloat : 1));
 }
 

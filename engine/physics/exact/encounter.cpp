@@ -61,7 +61,7 @@ void findJoints(const World& world, Encounter& encounter) {
 }
 
 double pullOf(const Bodies& bodies, const Encounter& encounter) {
-  double pull = bodies.world().gravity.norm();
+  double pull = gravityScale(bodies.world());
   for (const EncounterBody& body : encounter.bodies) {
     if (body.mover->isDriven()) {
       pull = std::max(pull, drivenAcceleration(std::array{body.touching(encounter.time)}));

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "core/disjoint_sets.h"
@@ -228,10 +229,20 @@ void ExactWorld::moveOn(Encounter& encounter) {
       bodies_.fly(body.mover->rank, encounter.time, body.after, body.attitude);
     }
   }
+  // All of them first: a crowd takes in what it is about to meet.
+  std::vector<Encounter> unsolved;
   for (const std::shared_ptr<IslandGroup>& island : encounter.islands) {
-    if (const std::optional<Encounter> unsolved = island->begin(encounter.time)) {
-      CrowdGroup::form(bodies_, *unsolved);
+    if (std::optional<Encounter> each = island->begin(encounter.time)) {
+      unsolved.push_back(std::move(*each));
     }
+  }
+  for (Encounter& each : unsolved) {
+    for (const EncounterBody& body : each.bodies) {
+      if (body.mover->group && !body.mover->group->isPredicted()) {  // the crowd of one before it has it
+        body.mover->group->enter(each, body.mover->rank);
+      }
+    }
+    CrowdGroup::form(bodies_, each);
   }
   bodies_.account().parted();
   for (const EncounterBody& body : encounter.bodies) {

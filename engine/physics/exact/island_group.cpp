@@ -75,8 +75,10 @@ bool IslandGroup::takeStep(const Instant& time) {
   }
   bool isSolved = true;
   try {
-    // Not bounded by the end of the run, on which the motion must not depend.
-    double change = std::numeric_limits<double>::infinity();
+    // Not bounded by the end of the run, on which the motion must not depend; but by what scales hold for.
+    double change = isGravitySloping(bodies_.world())
+                        ? secondsBetween(time, Instant(bodies_.world().gravityChanges.front().time))
+                        : std::numeric_limits<double>::infinity();
     for (const ContactFeature& feature : island_->joints()) {
       change = std::min(change, untilChange(bodies_, *feature.joint, time));
     }

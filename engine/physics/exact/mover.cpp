@@ -8,14 +8,15 @@
 
 namespace careen {
 
-void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravity) {
+void Mover::fly(const BodyState& state, const Quat& attitude, const Vec3& gravity, const Vec3& jerk) {
   kind = Kind::kFlies;
   group.reset();
   flight = {.position = state.pose.position,
             .velocity = state.velocity,
             .acceleration = gravity,
             .worldFromBody = attitude,
-            .angularMomentum = state.angularMomentum};
+            .angularMomentum = state.angularMomentum,
+            .jerk = jerk};
   if (!moments) {
     moments.emplace(body->mass.inertiaBody);
   }
@@ -101,7 +102,7 @@ Attitude Mover::operator()(double elapsed) const {
           .angularVelocity = rotation->angularVelocityWorld(principal)};
 }
 
-MovingBox Mover::moving(const Instant& clockZero, int box) const {
+MovingBox Mover::moving(const Instant& clockZero, int box, const Instant& foreseen) const {
   const TouchingShape shape = shapeOf(*body, box);
   return {.halfExtents = shape.halfExtents,
           .center = shape.center,
@@ -116,7 +117,9 @@ MovingBox Mover::moving(const Instant& clockZero, int box) const {
           .step = steps() ? &group->motion(place) : nullptr,
           .speedBound = bounds.speed,
           .accelerationBound = bounds.acceleration,
-          .driven = isDriven() ? &drivenBy->motion : nullptr};
+          .driven = isDriven() ? &drivenBy->motion : nullptr,
+          .jerk = flight.jerk,
+          .lasts = flight.jerk.isZero(0) ? 0 : elapsed(foreseen)};
 }
 
 bool areTouching(const BoxAt& a, const BoxAt& b, double apart) {

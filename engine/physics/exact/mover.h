@@ -56,7 +56,7 @@ struct Mover {
   bool isDriven() const { return kind == Kind::kDriven; }
   bool moves() const { return kind != Kind::kRests; }
   /// `attitude` is that of `state`, but may not reproduce its matrix to the bit.
-  void fly(const BodyState& state, const Quat& attitude, const Vec3& gravity);
+  void fly(const BodyState& state, const Quat& attitude, const Vec3& gravity, const Vec3& jerk);
   /// What is held does so.
   void drive(const CoursePart& by);
   /// It stays a member of its group.
@@ -71,8 +71,8 @@ struct Mover {
   BodyState stateAt(const Instant& time) const { return stateAt(time, attitudeAt(time)); }
   /// For the contact search; `elapsed` [s] counts from the start of the motion.
   Attitude operator()(double elapsed) const;
-  /// One of its boxes, with time 0 of the search at `clockZero`.
-  MovingBox moving(const Instant& clockZero, int box) const;
+  /// One of its boxes, with time 0 of the search at `clockZero`; a flight lasts as long as is `foreseen`.
+  MovingBox moving(const Instant& clockZero, int box, const Instant& foreseen) const;
 };
 
 /// Whether the gap of two boxes is within the contact-group tolerance, or within `apart` [m] if that is more.

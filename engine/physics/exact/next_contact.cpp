@@ -43,7 +43,8 @@ EventKind kindOf(const FirstContact& contact) {
 bool moveAsOne(const Mover& a, const Mover& b) {
   return !a.steps() && !b.steps() && !a.isDriven() && !b.isDriven() && a.bounds.angularSpeed == 0 &&
          b.bounds.angularSpeed == 0 && a.flight.acceleration == b.flight.acceleration &&
-         a.flight.velocity == b.flight.velocity && a.flight.acceleration.isZero(0);
+         a.flight.velocity == b.flight.velocity && a.flight.acceleration.isZero(0) &&
+         a.flight.jerk.isZero(0) && b.flight.jerk.isZero(0);
 }
 
 }  // namespace
@@ -51,10 +52,11 @@ bool moveAsOne(const Mover& a, const Mover& b) {
 namespace {
 
 FirstContact meetPlane(const MovingBox& box, const WallPlane& plane, double until) {
-  return box.angularSpeedBound == 0 ? firstContactTranslating(box, plane.normal, plane.offset, until)
-                                    : searchUntil(until, [&](const SearchWindow& window) {
-                                        return firstContactWithWall(box, plane.normal, plane.offset, window);
-                                      });
+  return box.angularSpeedBound == 0 && box.jerk.isZero(0)
+             ? firstContactTranslating(box, plane.normal, plane.offset, until)
+             : searchUntil(until, [&](const SearchWindow& window) {
+                 return firstContactWithWall(box, plane.normal, plane.offset, window);
+               });
 }
 
 FirstContact meetDriven(const MovingBox& box, const DrivenWall& wall, double until) {
@@ -67,9 +69,9 @@ FirstContact meetDriven(const MovingBox& box, const DrivenWall& wall, double unt
 
 // Of one of its boxes with any wall, if it is before `until` [s] of the body's motion, which then is its
 // time. What rests looks only for those that are driven.
-void meetWalls(const Mover& body, int index, std::span<const Mover> walls, double& until,
-               std::optional<Event>& first) {
-  const MovingBox box = body.moving(body.start, index);
+void meetWalls(const Mover& body, int index, std::span<const Mover> walls, const Instant& foreseen,
+               double& until, std::optional<Event>& first) {
+  const MovingBox box = body.moving(body.start, index, foreseen);
   // The wall likely to be hit first, so that the others need not be searched beyond that time.
   std::size_t likely = 0;
   double soonest = kNever;
@@ -114,12 +116,13 @@ std::optional<Event> firstWall(const Mover& body, std::span<const Mover> walls, 
   std::optional<Event> first;
   double until = body.elapsed(end);
   for (int i = 0; i < body.body->partCount(); ++i) {
-    meetWalls(body, i, walls, until, first);
+    meetWalls(body, i, walls, end, until, first);
   }
   return first;
 }
 
-std::optional<Event> firstMeeting(const Mover& body, const Mover& other, const Instant& until) {
+std::optional<Event> firstMeeting(const Mover& body, const Mover& other, const Instant& foreseen,
+                                  const Instant& until) {
   const Instant zero = later(body.start, other.start);
   Instant last = until;
   for (const Mover* each : {&body, &other}) {
@@ -138,7 +141,7 @@ std::optional<Event> firstMeeting(const Mover& body, const Mover& other, const I
         continue;
       }
       const FirstContact contact = searchUntil(end, [&](const SearchWindow& window) {
-        return firstContactOfBoxes(body.moving(zero, i), other.moving(zero, j), window);
+        return firstContactOfBoxes(body.moving(zero, i, foreseen), other.moving(zero, j, foreseen), window);
       });
       if (contact.kind != ContactKind::kNone && (!first || contact.time < end)) {
         end = contact.time;

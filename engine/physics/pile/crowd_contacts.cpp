@@ -51,7 +51,7 @@ void CrowdContacts::begin() {
                            body.turning;
     paths_[i] = body.path + (body.asleep ? fall : body.ahead);
   });
-  pairs_.update(members_.bodies, members_.world.gravity, members_.h,
+  pairs_.update(members_.bodies, gravityNow(members_.world, members_.time + 0.5 * members_.h), members_.h,
                 std::max(members_.h, kLookAhead * members_.longestStep()));
   unused_.insert(unused_.end(), pairs_.freed().begin(), pairs_.freed().end());
   pairs_.freed().clear();

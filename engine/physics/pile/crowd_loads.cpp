@@ -13,7 +13,7 @@ constexpr double kMostDriven = 2;  // [1] of the tolerance: way that a motor add
 }  // namespace
 
 CrowdLoads::CrowdLoads(const CrowdMembers& members, const CrowdMemory& memory)
-    : members_(members), memory_(memory) {
+    : members_(members), memory_(memory), gravity_(members.world.gravity) {
   if (hasVaryingLoads(members.world) || members.world.control) {
     for (const Body& body : members.world.bodies) {
       states_.push_back(body.initial);
@@ -82,6 +82,7 @@ void CrowdLoads::limit(double stiffness, double damping, double mobility) {
 // Forces of springs and drag, in the middle of the step, found by iteration (implicit midpoint rule): springs
 // don't swing higher and higher.
 void CrowdLoads::find() {
+  gravity_ = gravityNow(members_.world, members_.time + 0.5 * members_.h);
   if (states_.empty()) {
     return;
   }
@@ -90,7 +91,7 @@ void CrowdLoads::find() {
       states_[members_.listed[i]] = stateOf(members_[i]);
     }
   }
-  computeLoads(members_.world, states_, loads_);
+  computeLoads(members_.world, gravity_, states_, loads_);
   for (int pass = 0; pass < kLoadPasses; ++pass) {
     for (std::size_t i = 0; i < members_.size(); ++i) {
       if (!members_[i].still()) {
@@ -103,19 +104,19 @@ void CrowdLoads::find() {
         states_[members_.listed[i]] = stateOf(halfway);
       }
     }
-    computeLoads(members_.world, states_, loads_);
+    computeLoads(members_.world, gravity_, states_, loads_);
   }
 }
 
 Vec3 CrowdLoads::acceleration(std::size_t place) const {
-  return loads_.empty()           ? members_.world.gravity
+  return loads_.empty()           ? gravity_
          : members_[place].held() ? Vec3(Vec3::Zero())
                                   : Vec3(members_[place].inverseMass * loads_[members_.listed[place]].force);
 }
 
 Vec3 CrowdLoads::accelerationBefore(std::size_t place) const {
   return memory_.loads.empty()
-             ? members_.world.gravity
+             ? gravityNow(members_.world, members_.time - 0.5 * memory_.length)
              : Vec3(members_[place].inverseMass * memory_.loads[members_.listed[place]].force);
 }
 

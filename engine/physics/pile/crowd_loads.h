@@ -20,7 +20,7 @@ class CrowdLoads {
   /// [s] With the springs of the members, and those of their joints.
   double longestStep() const;
 
-  /// In the middle of the step.
+  /// In the middle of the step, where gravity is its mean.
   void find();
   /// Beside gravity; in the last step.
   bool any() const { return !loads_.empty(); }
@@ -43,6 +43,7 @@ class CrowdLoads {
   double longestStep_ = std::numeric_limits<double>::infinity();
   std::vector<BodyState> states_;  // of the world
   std::vector<Load> loads_;        // by index in the world
+  Vec3 gravity_;                   // [m/s²] in the step
 };
 
 }  // namespace careen

@@ -11,7 +11,7 @@ CrowdMembers::CrowdMembers(const World& inWorld, double toTolerance, std::shared
       team(std::move(withTeam)),
       tolerance(toTolerance),
       scale(std::sqrt(toTolerance / kUsualTolerance)),
-      gravity(inWorld.gravity.norm()),
+      gravity(gravityScale(inWorld)),
       h(longestStep()),
       span(h) {
   for (std::size_t w = 0; w < world.walls.size(); ++w) {

@@ -73,7 +73,7 @@ struct CrowdMembers {
   std::shared_ptr<Team> team;
   double tolerance = 0;          ///< [m]
   double scale = 1;              ///< [1] root of the tolerance over the usual one
-  double gravity = 0;            ///< [m/s²] its size
+  double gravity = 0;            ///< [m/s²] its size, at most
   double time = 0;               ///< [s] when it begins
   double h = 0;                  ///< [s] length of the step
   double span = 0;               ///< [s] to its middle from that of the step before: its impulses

@@ -211,7 +211,7 @@ void CrowdSleep::wakeNeighbours() {
 // Bodies that push each other, or sleep together.
 void CrowdSleep::findClusters() {
   grip_.assign(members_.size(), kFrictionless);
-  isCarried_.assign(members_.size(), 0);
+  isCarried_.assign(members_.size(), isGravitySloping(members_.world) ? 1 : 0);
   clusters_.reset(members_.size());
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (members_[i].asleep) {
@@ -301,7 +301,8 @@ void CrowdSleep::freeze(std::size_t place, int cluster) {
 }
 
 // At rest, or nearly so: the forces of the last step balanced but for that part of gravity, and its speed is
-// that part of what friction stops in a step. What touches something driven never is.
+// that part of what friction stops in a step. What touches something driven never is, and nothing where
+// gravity slopes.
 bool CrowdSleep::isQuiet(std::size_t place, double imbalance, double part) const {
   const PileBody& body = members_[place];
   const double speed = body.velocity.norm() + body.radius * body.omega.norm();

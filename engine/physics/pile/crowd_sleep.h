@@ -65,7 +65,7 @@ class CrowdSleep {
   CrowdMemory& memory_;
   PileSolver solver_;            // of certificates
   std::vector<double> grip_;     // [1] largest friction coefficient at a body's contacts
-  std::vector<char> isCarried_;  // by place: it touches something driven
+  std::vector<char> isCarried_;  // by place: it touches something driven, or gravity slopes
   DisjointSets clusters_;        // of bodies in resting contact
   std::vector<char> woken_;      // by place: in this step
 };

@@ -18,7 +18,8 @@ class DrivenWallApproach {
         turningWall_(rates_.angularSpeed * rates_.angularSpeed + rates_.angularAcceleration),
         turningBoth_(turningBound(box) + 2 * box.angularSpeedBound * rates_.angularSpeed + turningWall_),
         radius_(box.radius()),
-        acceleration_(box.acceleration.norm() + rates_.acceleration) {}
+        acceleration_(std::max(box.acceleration.norm(), box.accelerationAfter(box.lasts).norm()) +
+                      rates_.acceleration) {}
 
   // At the current speed plus what it can gain.
   double skip(double time) {
@@ -43,7 +44,8 @@ class DrivenWallApproach {
     tolerance_ = kGapRounding *
                  (box_.position.norm() + elapsed * speedAt(0.5 * elapsed) + radius_ + driven.pivot.norm() +
                   driven.arm.norm() + driven.amplitude.norm() + (wall_.age + time) * rates_.speed);
-    bound_ = ConcaveBound(height, centreRate() + dot(turning, arm), chooseCurvature());
+    bound_ = ConcaveBound(height, centreRate() + dot(turning, arm),
+                          chooseCurvature(box_.accelerationAfter(elapsed)));
     for (int i = 0; i < 3; ++i) {
       const Vec3 edge = now.worldFromBody.col(i);
       bound_.addKink(box_.halfExtents(i), dot(normal_, edge), dot(turning, edge));
@@ -69,7 +71,7 @@ class DrivenWallApproach {
   }
 
  private:
-  double speedAt(double elapsed) const { return box_.velocity.norm() + elapsed * box_.acceleration.norm(); }
+  double speedAt(double elapsed) const { return box_.velocity.norm() + elapsed * acceleration_; }
   double centreRate() const { return dot(normal_, rate_) + dot(at_.angularVelocity.cross(normal_), offset_); }
   double centreCurvature() const {
     return turningWall_ * mostDistance_ + 2 * rates_.angularSpeed * mostSpeed_ + acceleration_;
@@ -77,15 +79,16 @@ class DrivenWallApproach {
 
   // Of one that swings without a turn, for a little longer than the bound for ever would reach, what it is
   // now and what it becomes meanwhile: where a floor that swings lets go, it is small.
-  double chooseCurvature() {
+  double chooseCurvature(const Vec3& acceleration) {
     constexpr double kLonger = 16;
     const double ever = centreCurvature() + turningBoth_ * radius_;
     if (rates_.angularSpeed != 0 || !wall_.driven.swings()) {
       return ever;
     }
     const double ahead = kLonger * std::sqrt(2 * std::max(gap_, 8 * tolerance_) / ever);
-    const double now = dot(normal_, at_.acceleration - box_.acceleration) + turningBoth_ * radius_;
-    const double soon = std::max(0.0, now + ahead * wall_.driven.rate * rates_.acceleration);
+    const double now = dot(normal_, at_.acceleration - acceleration) + turningBoth_ * radius_;
+    const double soon =
+        std::max(0.0, now + ahead * (wall_.driven.rate * rates_.acceleration + box_.jerk.norm()));
     if (soon >= ever) {
       return ever;
     }

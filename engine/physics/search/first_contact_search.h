@@ -17,6 +17,11 @@ inline double turningBound(const MovingBox& box) {
   return box.angularSpeedBound * box.angularSpeedBound + box.angularAccelerationBound;
 }
 
+/// [m/s²] Of the components of a flight's acceleration.
+inline Vec3 mostOf(const MovingBox& box) {
+  return box.acceleration.cwiseAbs() + box.lasts * box.jerk.cwiseAbs();
+}
+
 /// Faster than anything that falls from rest within 8 tolerances of contact.
 inline bool fasterThanSinking(double approach, double curvature, double tolerance) {
   return approach > 0 && approach * approach > 16 * curvature * tolerance;

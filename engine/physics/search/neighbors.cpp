@@ -184,6 +184,25 @@ double Neighbors::room(const Vec3& position, const Cell& cell) const {
   return least * edge_;
 }
 
+Neighbors::Crossing Neighbors::nextCrossing(const Flight& flight, double lasts, const Cell& cell,
+                                            double from) const {
+  if (flight.jerk.isZero(0)) {
+    return nextCrossing(flight.position, flight.velocity, flight.acceleration, cell, from);
+  }
+  const double most = std::max(flight.acceleration.norm(), flight.accelerationAt(lasts).norm());
+  for (double time = from; time < lasts;) {
+    const Vec3 position = flight.positionAt(time);
+    const double left = room(position, cell);
+    if (left < kMargin / 4 * edge_) {
+      return {.time = time, .cell = cellOf(position)};
+    }
+    // v t + ½ a t² ≤ room
+    const double speed = flight.velocityAt(time).norm();
+    time += 2 * left / (speed + std::sqrt(speed * speed + 2 * most * left));
+  }
+  return {.time = kNeverCrosses, .cell = cell};
+}
+
 // Conservative advancement: in each pass by the time in which the fastest would use up the room.
 Neighbors::Crossing Neighbors::nextCrossing(const ContactStep& step, double speedBound, const Cell& cell,
                                             double from) const {

@@ -78,6 +78,9 @@ class Neighbors {
   /// `cell`, not before `from`. Closed form; call again for later crossings.
   Crossing nextCrossing(const Vec3& position, const Vec3& velocity, const Vec3& acceleration,
                         const Cell& cell, double from) const;
+  /// Of a flight whose acceleration may grow until it has lasted so long [s]: later than that if it stays.
+  /// With jerk it is 3/64 to 1/16 of an edge outside.
+  Crossing nextCrossing(const Flight& flight, double lasts, const Cell& cell, double from) const;
   /// When a centre on `step`, not faster than `speedBound` [m/s], is 3/64 to 1/16 of an edge outside `cell`,
   /// not before `from`: later than the step if it stays.
   Crossing nextCrossing(const ContactStep& step, double speedBound, const Cell& cell, double from) const;

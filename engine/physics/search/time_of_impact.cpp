@@ -18,18 +18,20 @@ class WallApproach {
         height_(dot(normal, box.position) - offset),
         rate_(dot(normal, box.velocity)),
         acceleration_(dot(normal, box.acceleration)),
+        jerk_(dot(normal, box.jerk)),
+        lowest_(std::min(acceleration_, dot(normal, box.accelerationAfter(box.lasts)))),
         radius_(box.radius()),
         offCenter_(!box.center.isZero(0)),
-        curvature_(std::max(0.0, radius_ * turningBound(box) - acceleration_)) {
+        curvature_(std::max(0.0, radius_ * turningBound(box) - lowest_)) {
     const Vec3 weights = normal.cwiseAbs();
     sizes_ = {dot(weights, box.position.cwiseAbs()) + std::fabs(offset) + radius_,
-              dot(weights, box.velocity.cwiseAbs()), dot(weights, box.acceleration.cwiseAbs())};
+              dot(weights, box.velocity.cwiseAbs()), dot(weights, mostOf(box))};
   }
 
   double skip(double time) const {
     const double elapsed = box_.age + time;
     const double clear = heightAt(elapsed) - radius_ * kSphere;
-    return clear > 0 ? time + firstRoot(clear, rateAt(elapsed), -acceleration_, kNever) : time;
+    return clear > 0 ? time + firstRoot(clear, rateAt(elapsed), -lowest_, kNever) : time;
   }
 
   void moveTo(double time) {
@@ -81,15 +83,19 @@ class WallApproach {
 
  private:
   double heightAt(double elapsed) const {
-    return height_ + elapsed * (rate_ + 0.5 * elapsed * acceleration_);
+    return height_ + elapsed * (rate_ + 0.5 * elapsed * acceleration_ + (elapsed * elapsed / 6) * jerk_);
   }
-  double rateAt(double elapsed) const { return rate_ + elapsed * acceleration_; }
+  double rateAt(double elapsed) const {
+    return rate_ + elapsed * acceleration_ + (0.5 * elapsed * elapsed) * jerk_;
+  }
 
   const MovingBox& box_;
   const Vec3 normal_;
   const double height_;
   const double rate_;
   const double acceleration_;
+  const double jerk_;
+  const double lowest_;  // of the acceleration
   const double radius_;
   const bool offCenter_;
   const double curvature_;

@@ -23,6 +23,8 @@
 //     u rotating with b's face  M = K_b|Δ| + 2 W_b V + G + K_ab R_a   (f = u·Δ + u·r_a; likewise a's face)
 //     N = aᵢ×bⱼ rotating        M = K_ab|Δ| + 2 (W_a+W_b) V + G + K_ab (ρ_a+ρ_b)
 //     u fixed in space          M = K_a R_a + K_b R_b − u·g
+// Of a flight with jerk, g is that of its start or its end, where it does more. Two with the same jerk have
+// none relative to each other.
 // Where the middle of a box is not its centre of mass, Δ is that of the centres of mass, R the distance to
 // the furthest corner, and the constant part of f moves with the boxes: the bounds M stay.
 // ρ is the half diagonal across the edge. In a ContactStep the centre's path is no parabola: G then bounds
@@ -67,7 +69,7 @@ struct MovingBox {
   const Mat3* bodyFromBox = nullptr;    ///< null: its axes are the body's
   Vec3 position;                        ///< [m] of the centre of mass when the flight began, world
   Vec3 velocity;                        ///< [m/s] likewise
-  Vec3 acceleration;                    ///< [m/s²] constant
+  Vec3 acceleration;                    ///< [m/s²] likewise
   double age = 0;                       ///< [s] time since the flight began, at search time 0
   double angularSpeedBound = 0;         ///< [rad/s] never exceeded in this flight
   double angularAccelerationBound = 0;  ///< [rad/s²] likewise
@@ -76,20 +78,26 @@ struct MovingBox {
   double speedBound = 0;              ///< [m/s] of the centre in this step, or driven
   double accelerationBound = 0;       ///< [m/s²] likewise
   const Driven* driven = nullptr;     ///< likewise
+  Vec3 jerk = Vec3::Zero();           ///< [m/s³] of a flight, constant
+  double lasts = 0;                   ///< [s] of one with jerk, since it began: no search goes on for longer
 
-  bool isOnParabola() const { return step == nullptr && driven == nullptr; }
+  bool isFlight() const { return step == nullptr && driven == nullptr; }
   Vec3 positionAt(double time) const {
     const double elapsed = age + time;
-    return isOnParabola()    ? position + (velocity + 0.5 * elapsed * acceleration) * elapsed
+    return isFlight()
+               ? position +
+                     (velocity + 0.5 * elapsed * acceleration + (elapsed * elapsed / 6) * jerk) * elapsed
            : step != nullptr ? careen::positionAt(*step, elapsed)
                              : driven->at(elapsed).pose.position;
   }
   Vec3 velocityAt(double time) const {
     const double elapsed = age + time;
-    return isOnParabola()    ? velocity + elapsed * acceleration
+    return isFlight()        ? velocity + elapsed * acceleration + (0.5 * elapsed * elapsed) * jerk
            : step != nullptr ? careen::velocityAt(*step, elapsed)
                              : driven->at(elapsed).velocity;
   }
+  /// [m/s²] Of a flight, `elapsed` [s] after it began.
+  Vec3 accelerationAfter(double elapsed) const { return acceleration + elapsed * jerk; }
   /// [m] From the centre of mass to the furthest corner.
   double radius() const { return (center.cwiseAbs() + halfExtents).norm(); }
   /// Of the box's own axes, `elapsed` [s] after the flight began.

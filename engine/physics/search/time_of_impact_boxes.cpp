@@ -25,7 +25,7 @@ class BoxApproach {
         b_(b),
         bToA_(a.positionAt(0) - b.positionAt(0)),
         velocity_(a.velocityAt(0) - b.velocityAt(0)),
-        acceleration_(a.acceleration - b.acceleration),
+        acceleration_(a.accelerationAfter(a.age) - b.accelerationAfter(b.age)),
         radiusA_(a.radius()),
         radiusB_(b.radius()),
         offCenter_(!a.center.isZero(0) || !b.center.isZero(0)),
@@ -33,7 +33,7 @@ class BoxApproach {
         turningA_(turningBound(a)),
         turningB_(turningBound(b)),
         turningBoth_((turningA_ + turningB_) + 2 * a.angularSpeedBound * b.angularSpeedBound),
-        steps_(!a.isOnParabola() || !b.isOnParabola()),
+        steps_(!a.isFlight() || !b.isFlight() || a.jerk != b.jerk),
         gravity_(steps_ ? accelerationOf(a) + accelerationOf(b) : acceleration_.norm()) {}
 
   double skip(double time) const;
@@ -60,7 +60,8 @@ class BoxApproach {
 
  private:
   static double accelerationOf(const MovingBox& box) {
-    return box.isOnParabola() ? box.acceleration.norm() : box.accelerationBound;
+    return box.isFlight() ? std::max(box.acceleration.norm(), box.accelerationAfter(box.lasts).norm())
+                          : box.accelerationBound;
   }
   Vec3 offsetAt(double time) const {
     return steps_ ? a_.positionAt(time) - b_.positionAt(time)
@@ -103,7 +104,7 @@ class BoxApproach {
   const double turningA_;
   const double turningB_;
   const double turningBoth_;
-  const bool steps_;      // one of them is in a ContactStep, or driven
+  const bool steps_;      // one of them is in a ContactStep, or driven, or has a jerk of its own
   const double gravity_;  // [m/s²] bounds the relative acceleration
 
   // At the current time:
@@ -224,13 +225,13 @@ void BoxApproach::moveTo(double time) {
              box.speedBound * elapsed;
     }
     return sumOfSizes(box.position) +
-           elapsed * (sumOfSizes(box.velocity) + 0.5 * elapsed * sumOfSizes(box.acceleration));
+           elapsed * (sumOfSizes(box.velocity) + 0.5 * elapsed * sumOfSizes(mostOf(box)));
   };
   const auto speeds = [](const MovingBox& box, double elapsed) {
-    if (!box.isOnParabola()) {
+    if (!box.isFlight()) {
       return box.speedBound;
     }
-    return sumOfSizes(box.velocity) + elapsed * sumOfSizes(box.acceleration);
+    return sumOfSizes(box.velocity) + elapsed * sumOfSizes(mostOf(box));
   };
   tolerance_ = kGapRounding * ((lengths(a_, elapsedA) + lengths(b_, elapsedB)) + spheres_);
   rateTolerance_ = kRateRounding * ((speeds(a_, elapsedA) + speeds(b_, elapsedB)) +

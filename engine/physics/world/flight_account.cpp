@@ -10,7 +10,9 @@
 namespace careen {
 
 FlightAccount::FlightAccount(const World& world)
-    : world_(world), bodies_(world.bodies.size()), mayGain_(hasBelts(world) || hasCourses(world)) {
+    : world_(world),
+      bodies_(world.bodies.size()),
+      mayGain_(hasBelts(world) || hasCourses(world) || world.gravityPath == GravityPath::kLinear) {
   if (!world.springs.empty() || !world.joints.empty()) {
     for (const Body& body : world.bodies) {
       states_.push_back(body.initial);
@@ -50,11 +52,11 @@ void FlightAccount::passes(std::size_t body, const BodyState& state) {
   largestError_ = std::max(largestError_, std::abs(energy() - due_));
 }
 
-void FlightAccount::arrives(std::size_t body, const BodyState& state, double elapsed) {
+void FlightAccount::arrives(std::size_t body, const BodyState& state, double elapsed, const Vec3& more) {
   passes(body, state);
   const BodyAccount& begun = bodies_[body];
   const double mass = world_.bodies[body].mass.mass;
-  const Vec3 due = begun.momentum + elapsed * mass * world_.gravity;
+  const Vec3 due = begun.momentum + elapsed * mass * (world_.gravity + more);
   expect(mass * state.velocity, due, 0);
   // A box that hardly turns has an angular momentum of rounding.
   expect(state.angularMomentum, begun.angularMomentum, world_.bodies[body].halfExtents.norm() * due.norm());

@@ -15,7 +15,7 @@ namespace careen {
 ///
 /// Energy dissipated by impacts with e < 1 or friction is accounted for. An energy increase never is, nor any
 /// change in flight or in an impact that should conserve energy; but where surfaces move along themselves,
-/// which give some wherever bodies touch, flight alone is looked at.
+/// which give some wherever bodies touch, and where gravity slopes, flight alone is looked at.
 class FlightAccount {
  public:
   explicit FlightAccount(const World& world);
@@ -24,11 +24,12 @@ class FlightAccount {
   void departs(std::size_t body, const BodyState& state);
   /// A body's motion passes through this state.
   void passes(std::size_t body, const BodyState& state);
-  /// A body's motion ends in this state, `elapsed` [s] after it began.
-  void arrives(std::size_t body, const BodyState& state, double elapsed);
+  /// A body's motion ends in this state, `elapsed` [s] after it began; `more` [m/s²]: the mean of gravity in
+  /// it beyond that of the world.
+  void arrives(std::size_t body, const BodyState& state, double elapsed, const Vec3& more = Vec3::Zero());
   /// Between the arrivals and the departures of its bodies: what happens may dissipate energy.
   void mayLose() { mayLose_ = true; }
-  /// Motors did so much work [J].
+  /// Motors, or gravity beyond that of the world, did so much work [J].
   void gives(double work) { due_ += work; }
   /// All bodies of the impact have departed.
   void parted();

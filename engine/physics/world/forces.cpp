@@ -189,10 +189,11 @@ double dissipation(const World& world, std::span<const BodyState> states) {
   return power;
 }
 
-void computeLoads(const World& world, std::span<const BodyState> states, std::vector<Load>& loads) {
+void computeLoads(const World& world, const Vec3& gravity, std::span<const BodyState> states,
+                  std::vector<Load>& loads) {
   loads.resize(states.size());
   for (std::size_t i = 0; i < states.size(); ++i) {
-    loads[i] = {.force = world.bodies[i].mass.mass * world.gravity, .torque = Vec3::Zero()};
+    loads[i] = {.force = world.bodies[i].mass.mass * gravity, .torque = Vec3::Zero()};
     if (world.drag) {
       const Vec3 omega = angularVelocity(world.bodies[i].mass, states[i]);
       const Load drag = dragLoad(*world.drag, states[i].velocity, omega);
@@ -245,7 +246,7 @@ std::vector<double> pulls(const World& world, std::span<const BodyState> states)
       addPulls(joint, world, states, pulls);
     }
   }
-  const double gravity = world.gravity.norm();
+  const double gravity = gravityScale(world);
   for (double& pull : pulls) {
     pull = std::max(pull, gravity);
   }
@@ -258,7 +259,7 @@ std::vector<double> accelerationsAtStart(const World& world) {
     states.push_back(body.initial);
   }
   std::vector<Load> loads;
-  computeLoads(world, states, loads);
+  computeLoads(world, world.gravity, states, loads);
   std::vector<double> accelerations;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     accelerations.push_back(world.bodies[i].mass.inverseMass * loads[i].force.norm());

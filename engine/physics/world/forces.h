@@ -52,9 +52,10 @@ double springEnergy(const World& world, std::span<const BodyState> states);
 /// Power of damping in springs and joints, and drag, [W]; never positive for damping and drag ≥ 0.
 double dissipation(const World& world, std::span<const BodyState> states);
 
-/// Total force and torque on every body from gravity, drag, springs and loaded joints. Loads on immovable
-/// bodies are listed too, without weight, and have no effect.
-void computeLoads(const World& world, std::span<const BodyState> states, std::vector<Load>& loads);
+/// Total force and torque on every body from gravity [m/s²], drag, springs and loaded joints. Loads on
+/// immovable bodies are listed too, without weight, and have no effect.
+void computeLoads(const World& world, const Vec3& gravity, std::span<const BodyState> states,
+                  std::vector<Load>& loads);
 
 /// [m/s²] Of each body's centre of mass at the start, without contacts.
 std::vector<double> accelerationsAtStart(const World& world);

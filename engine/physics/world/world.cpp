@@ -37,25 +37,77 @@ Kinematics wallMotion(const Wall& wall, double time) {
   return wall.course.empty() ? Kinematics{} : partAt(wall.course, time).at(time);
 }
 
+namespace {
+
+// [m/s³] From one moment to the next.
+Vec3 slopeOf(const GravityChange& from, const GravityChange& to) {
+  return (to.gravity - from.gravity) / (to.time - from.time);
+}
+
+}  // namespace
+
 Vec3 gravityAt(const World& world, double time) {
   const auto after = std::find_if(world.gravityChanges.begin(), world.gravityChanges.end(),
                                   [&](const GravityChange& change) { return change.time > time; });
-  return after == world.gravityChanges.begin() ? world.gravity : std::prev(after)->gravity;
+  const GravityChange start{.time = world.gravitySince, .gravity = world.gravity};
+  const GravityChange& last = after == world.gravityChanges.begin() ? start : *std::prev(after);
+  return world.gravityPath == GravityPath::kSteps || after == world.gravityChanges.end()
+             ? last.gravity
+             : Vec3(last.gravity + (time - last.time) * slopeOf(last, *after));
 }
 
+// Straight from one moment to the next the mean is that of both ends.
 Vec3 meanGravity(const World& world, double from, double to) {
   Vec3 gravity = gravityAt(world, from);
   if (world.gravityChanges.empty() || !(to > from)) {
     return gravity;
   }
-  Vec3 gained = (to - from) * gravity;
+  if (world.gravityPath == GravityPath::kSteps) {
+    Vec3 gained = (to - from) * gravity;
+    for (const GravityChange& change : world.gravityChanges) {
+      if (change.time > from && change.time < to) {
+        gained += (to - change.time) * (change.gravity - gravity);
+        gravity = change.gravity;
+      }
+    }
+    return gained / (to - from);
+  }
+  Vec3 gained = Vec3::Zero();
+  double time = from;
+  const auto goTo = [&](double next, const Vec3& there) {
+    gained += 0.5 * (next - time) * (gravity + there);
+    time = next;
+    gravity = there;
+  };
   for (const GravityChange& change : world.gravityChanges) {
     if (change.time > from && change.time < to) {
-      gained += (to - change.time) * (change.gravity - gravity);
-      gravity = change.gravity;
+      goTo(change.time, change.gravity);
     }
   }
+  goTo(to, gravityAt(world, to));
   return gained / (to - from);
+}
+
+bool isGravitySloping(const World& world) {
+  return world.gravityPath == GravityPath::kLinear && !world.gravityChanges.empty() &&
+         world.gravityChanges.front().gravity != world.gravity;
+}
+
+Vec3 gravitySlope(const World& world) {
+  return isGravitySloping(world)
+             ? slopeOf({.time = world.gravitySince, .gravity = world.gravity}, world.gravityChanges.front())
+             : Vec3(Vec3::Zero());
+}
+
+Vec3 gravityNow(const World& world, double time) {
+  return isGravitySloping(world) ? Vec3(world.gravity + (time - world.gravitySince) * gravitySlope(world))
+                                 : world.gravity;
+}
+
+// Its size is convex where it runs straight.
+double gravityScale(const World& world) {
+  const double now = world.gravity.norm();
+  return isGravitySloping(world) ? std::max(now, world.gravityChanges.front().gravity.norm()) : now;
 }
 
 double mostGravity(const World& world) {

@@ -65,16 +65,21 @@ struct Drag {
   double angular = 0;  ///< [N m s]
 };
 
-/// Gravity [m/s²] from a moment [s] on.
+/// Gravity [m/s²] at a moment [s].
 struct GravityChange {
   double time = 0;
   Vec3 gravity = Vec3::Zero();
 };
 
+/// Between those moments: it is what it was at the last one, or runs straight from each to the next.
+enum class GravityPath { kSteps, kLinear };
+
 /// The simulated system: only what a scene's plan needs is in it; an empty list costs nothing.
 struct World {
-  Vec3 gravity = Vec3::Zero();                ///< [m/s²] at the start
-  std::vector<GravityChange> gravityChanges;  ///< after it; their times ascend
+  Vec3 gravity = Vec3::Zero();                    ///< [m/s²] at `gravitySince`
+  double gravitySince = 0;                        ///< [s] the start; of a world that changes, the last change
+  std::vector<GravityChange> gravityChanges;      ///< after it; their times ascend
+  GravityPath gravityPath = GravityPath::kSteps;  ///< constant after the last of them
   std::vector<Body> bodies;
   std::vector<Wall> walls;
   std::vector<Spring> springs;
@@ -92,8 +97,14 @@ std::string whatHasCourses(const World& world);
 /// [m/s²] Gravity just after a moment [s], and its mean from one moment to another.
 Vec3 gravityAt(const World& world, double time);
 Vec3 meanGravity(const World& world, double from, double to);
-/// [m/s²] The largest that it ever is.
+/// [m/s²] The largest that it ever is; and until it changes next.
 double mostGravity(const World& world);
+double gravityScale(const World& world);
+/// Whether it grows evenly until it changes next, how fast [m/s³], and what it is [m/s²] at a moment until
+/// then; straight on after it.
+bool isGravitySloping(const World& world);
+Vec3 gravitySlope(const World& world);
+Vec3 gravityNow(const World& world, double time);
 /// Whether a body, by index, is an end of a joint.
 bool isJointed(const World& world, int body);
 /// Whether a joint that holds lets go one day, is driven, or has an effort that a control may change.

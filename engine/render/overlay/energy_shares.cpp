@@ -48,7 +48,14 @@ EnergyShares EnergyBook::sharesOf(std::span<const BodyState> states, double time
   EnergyShares shares = energySharesOf(world_, states, time);
   const auto changed = std::count_if(world_.gravityChanges.begin(), world_.gravityChanges.end(),
                                      [&](const GravityChange& change) { return change.time <= time; });
-  shares.gravity -= lowest_[static_cast<std::size_t>(changed)];
+  const auto last = static_cast<std::size_t>(changed);
+  shares.gravity -= lowest_[last];
+  if (world_.gravityPath == GravityPath::kLinear && last < world_.gravityChanges.size()) {
+    // The lowest is concave in gravity: between two it is not below what is between theirs.
+    const double from = last == 0 ? world_.gravitySince : world_.gravityChanges[last - 1].time;
+    shares.gravity -=
+        (time - from) / (world_.gravityChanges[last].time - from) * (lowest_[last + 1] - lowest_[last]);
+  }
   return shares;
 }
 

@@ -10,7 +10,8 @@ namespace careen {
 
 /// Energy balance of a run, which it must not outlive. Each box's potential energy is relative to x₀, the
 /// lowest position its centre reaches in the run, so that no part is negative: in free flight the minimum is
-/// at one of the ends. Where gravity changes, each gravity has its own.
+/// at one of the ends. Where gravity changes, each gravity has its own; where it slopes, x₀ goes
+/// evenly from one to the next.
 class EnergyBook {
  public:
   explicit EnergyBook(const Trajectory& trajectory);

@@ -22,6 +22,26 @@ TEST(GroupLoads, areTheWeightsWhereNothingElseActs) {
   EXPECT_EQ(loads.pull(of.state), 10);
 }
 
+// From 10 to 30 m/s² in 2 s: of each moment; accelerations count as the largest yet to come.
+TEST(GroupLoads, areTheWeightsOfTheMomentWhereGravitySlopes) {
+  World world = cubeAbove(1);
+  world.gravityPath = GravityPath::kLinear;
+  world.gravityChanges = {{.time = 2, .gravity = 3 * world.gravity}};
+  GroupOf of(world);
+  GroupLoads loads(of.group);
+  EXPECT_TRUE(loads.vary());
+  of.state[0].time = 0.5;
+  loads.find(of.state);
+  EXPECT_EQ(loads[0].force, Vec3(0, 0, -15));
+  EXPECT_EQ(loads.acceleration(of.state), 30);
+  EXPECT_EQ(loads.pull(of.state), 30);
+  of.world.drag = Drag{.linear = 4, .angular = 0};
+  of.state[0].velocity = Vec3(0, 0, 1);
+  GroupLoads dragged(of.group);
+  dragged.find(of.state);
+  EXPECT_EQ(dragged[0].force, Vec3(0, 0, -19));
+}
+
 // F = −4 v and τ = −0.1 ω on 1 kg with I = 1/150 kg m²; corners are √0.03 m from the middle.
 TEST(GroupLoads, ofDragFollowTheState) {
   World world = cubeAbove(1);

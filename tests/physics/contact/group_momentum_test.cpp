@@ -70,6 +70,7 @@ TEST(GroupMomentum, isKeptByARigidMotion) {
     RandomGroup group(random);
     const std::vector<GroupMember> before = group.members();
     const Vec3 gravity = random.inCube(10);
+    const Vec3 slope = round % 2 == 0 ? Vec3(Vec3::Zero()) : Vec3(random.inCube(20));
     const double h = random.between(0, 0.1);
     for (std::size_t i = 0; i < group.states.size(); ++i) {
       group.states[i].pose.position += random.inCube(1e-3);
@@ -78,7 +79,7 @@ TEST(GroupMomentum, isKeptByARigidMotion) {
       group.spins[i] += random.inCube(0.1);
     }
     group.turn();
-    const auto change = changeTo(momentumOf(before), h, gravity, momentumOf(group.members()));
+    const auto change = changeTo(momentumOf(before), h, gravity, momentumOf(group.members()), slope);
     ASSERT_TRUE(change);
     for (std::size_t i = 0; i < group.states.size(); ++i) {
       group.states[i].velocity += change->velocityAt(group.states[i].pose.position);
@@ -93,11 +94,14 @@ TEST(GroupMomentum, isKeptByARigidMotion) {
       mass += Quad(each.mass);
     }
     const Quad3 g = gravity.cast<Quad>();
-    const Quad3 place = from.place + Quad(h) * from.linear + Quad(h) * Quad(h) / 2 * mass * g;
-    const Quad3 linear = from.linear + Quad(h) * mass * g;
+    const Quad3 s = slope.cast<Quad>();
+    const Quad t(h);
+    const Quad3 place = from.place + t * from.linear + mass * (t * t / 2 * g + t * t * t / 6 * s);
+    const Quad3 linear = from.linear + mass * (t * g + t * t / 2 * s);
     // Weight acts at the centre of mass: about the origin it turns the group by m x × g.
-    const Quad3 angular =
-        from.angular + (Quad(h) * from.place + Quad(h) * Quad(h) / 2 * from.linear).cross(g);
+    const Quad3 angular = from.angular + (t * from.place + t * t / 2 * from.linear).cross(g) +
+                          (t * t / 2 * from.place + t * t * t / 3 * from.linear).cross(s) +
+                          mass * (t * t * t * t / 12) * g.cross(s);
     const double scale = static_cast<double>(mass) * 30;
     EXPECT_LT(static_cast<double>((to.place - place).norm()), 1e-15 * scale) << round;
     EXPECT_LT(static_cast<double>((to.linear - linear).norm()), 1e-15 * scale) << round;

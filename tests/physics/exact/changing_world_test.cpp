@@ -39,6 +39,22 @@ TEST(ChangingWorld, changesItsGravityInOrder) {
   EXPECT_TRUE(std::isinf(changing.nextJump()));
 }
 
+TEST(ChangingWorld, slopesFromOnePointToTheNext) {
+  World world;
+  world.gravity = Vec3(0, 0, -1);
+  world.gravityPath = GravityPath::kLinear;
+  world.gravityChanges = {{.time = 1, .gravity = Vec3(1, 0, -1)}, {.time = 3, .gravity = Vec3(1, 0, -5)}};
+  ChangingWorld changing(world);
+  EXPECT_EQ(gravitySlope(changing.world()), Vec3(1, 0, 0));
+  EXPECT_EQ(gravityNow(changing.world(), 0.5), Vec3(0.5, 0, -1));
+  changing.jump();
+  EXPECT_EQ(gravitySlope(changing.world()), Vec3(0, 0, -2));
+  EXPECT_EQ(gravityNow(changing.world(), 2), Vec3(1, 0, -3));
+  changing.jump();
+  EXPECT_FALSE(isGravitySloping(changing.world()));
+  EXPECT_EQ(gravityNow(changing.world(), 9), Vec3(1, 0, -5));
+}
+
 TEST(ChangingWorld, samplesAtMultiplesOfItsPeriod) {
   const World world = hinged();
   ChangingWorld changing(world);

@@ -21,7 +21,7 @@ Mover flying(const Body& body, const Vec3& gravity, double start) {
   Mover mover;
   mover.body = &body;
   mover.start = Instant(start);
-  mover.fly(body.initial, Quat(body.initial.pose.worldFromBody), gravity);
+  mover.fly(body.initial, Quat(body.initial.pose.worldFromBody), gravity, Vec3::Zero());
   return mover;
 }
 
@@ -85,7 +85,7 @@ TEST(Mover, thatRestsStandsAndForgetsItsFlight) {
 TEST(Mover, isSeenByTheSearchFromAnyMomentOn) {
   const Body body = makeBox(kTumbling);
   const Mover mover = flying(body, Vec3(0, 0, -9.81), 2);
-  const MovingBox box = mover.moving(Instant(5), 0);
+  const MovingBox box = mover.moving(Instant(5), 0, Instant(100));
   EXPECT_EQ(box.age, 3);
   EXPECT_EQ(box.halfExtents, body.halfExtents);
   EXPECT_EQ(box.positionAt(0.5), mover.positionAt(Instant(5.5)));

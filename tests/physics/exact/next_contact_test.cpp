@@ -21,7 +21,7 @@ struct Flyer {
     mover.rank = rank;
     mover.start = Instant(start);
     mover.motion = 5;
-    mover.fly(body.initial, Quat(body.initial.pose.worldFromBody), gravity);
+    mover.fly(body.initial, Quat(body.initial.pose.worldFromBody), gravity, Vec3::Zero());
   }
   Flyer(const Flyer&) = delete;
   Flyer& operator=(const Flyer&) = delete;
@@ -98,7 +98,7 @@ TEST(NextContact, ofTwoCountsFromTheLaterStart) {
   for (const bool swapped : {false, true}) {
     const Flyer& a = swapped ? late : early;
     const Flyer& b = swapped ? early : late;
-    const std::optional<Event> event = firstMeeting(a.mover, b.mover, Instant(100));
+    const std::optional<Event> event = firstMeeting(a.mover, b.mover, Instant(100), Instant(100));
     ASSERT_TRUE(event.has_value());
     EXPECT_NEAR(event->time.hi, 2 + 1.6 / 3, 1e-14);
     EXPECT_EQ(event->kind, EventKind::kContact);
@@ -106,8 +106,8 @@ TEST(NextContact, ofTwoCountsFromTheLaterStart) {
     EXPECT_EQ(event->partner, b.mover.rank);
     EXPECT_EQ(event->partnerMotion, 5U);
   }
-  EXPECT_FALSE(firstMeeting(early.mover, late.mover, Instant(2.5)).has_value());
-  EXPECT_FALSE(firstMeeting(early.mover, late.mover, Instant(1.5)).has_value());
+  EXPECT_FALSE(firstMeeting(early.mover, late.mover, Instant(2.5), Instant(2.5)).has_value());
+  EXPECT_FALSE(firstMeeting(early.mover, late.mover, Instant(1.5), Instant(1.5)).has_value());
 }
 
 // Thrown at t = 2 downward from below a box at rest. The same parabola, had it begun at t = 1, would have
@@ -115,18 +115,18 @@ TEST(NextContact, ofTwoCountsFromTheLaterStart) {
 TEST(NextContact, ofTwoIsNotBeforeBothHaveBegun) {
   const Flyer hanging({.position = {0, 0, 1.5}}, Vec3::Zero(), 1);
   const Flyer falling({.velocity = {0, 0, -5}}, Vec3(0, 0, -10), 2);
-  EXPECT_FALSE(firstMeeting(hanging.mover, falling.mover, Instant(100)).has_value());
+  EXPECT_FALSE(firstMeeting(hanging.mover, falling.mover, Instant(100), Instant(100)).has_value());
   const Flyer fallen({.position = {0, 0, 0}, .velocity = {0, 0, 5}}, Vec3(0, 0, -10), 2);
-  EXPECT_TRUE(firstMeeting(hanging.mover, fallen.mover, Instant(100)).has_value());
+  EXPECT_TRUE(firstMeeting(hanging.mover, fallen.mover, Instant(100), Instant(100)).has_value());
 }
 
 // Blocks that lie face to face and move alike are let be; so are those that part.
 TEST(NextContact, ofTwoThatMoveAsOneIsNone) {
   const Flyer a({.velocity = {1, 2, 3}});
   const Flyer b({.position = {0.4, 0, 0}, .velocity = {1, 2, 3}});
-  EXPECT_FALSE(firstMeeting(a.mover, b.mover, Instant(100)).has_value());
+  EXPECT_FALSE(firstMeeting(a.mover, b.mover, Instant(100), Instant(100)).has_value());
   const Flyer leaving({.position = {0.4, 0, 0}, .velocity = {2, 2, 3}});
-  EXPECT_FALSE(firstMeeting(a.mover, leaving.mover, Instant(100)).has_value());
+  EXPECT_FALSE(firstMeeting(a.mover, leaving.mover, Instant(100), Instant(100)).has_value());
 }
 
 }  // namespace

@@ -17,6 +17,15 @@ TEST(Flight, isAParabolaByHand) {
   EXPECT_EQ(flight.velocityAt(0.5), Vec3(2, 0, -1));
 }
 
+// x = 1 + 2t + t³, z = 5 + 3t − 4t².
+TEST(Flight, isACubicByHand) {
+  const Flight flight{
+      .position = {1, 0, 5}, .velocity = {2, 0, 3}, .acceleration = {0, 0, -8}, .jerk = {6, 0, 0}};
+  EXPECT_EQ(flight.positionAt(2), Vec3(13, 0, -5));
+  EXPECT_EQ(flight.velocityAt(2), Vec3(14, 0, -13));
+  EXPECT_EQ(flight.accelerationAt(2), Vec3(12, 0, -8));
+}
+
 TEST(Flight, isThatToARoundingOfItsTermsHoweverLongItLasts) {
   test::Dice dice(1);
   for (int k = 0; k < 1000; ++k) {

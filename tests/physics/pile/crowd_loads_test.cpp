@@ -34,6 +34,22 @@ TEST(CrowdLoads, withoutSpringsAndDragAreGravity) {
   EXPECT_EQ(stages.loads.torque(0), Vec3(0, 0, 0));
 }
 
+// From gravity to three times as much in 1 s: a step's is that of its middle, and so is that of the one
+// before.
+TEST(CrowdLoads, takeGravityOfTheMiddleOfTheStepWhereItSlopes) {
+  World world = floorWorld({});
+  world.gravityPath = GravityPath::kLinear;
+  world.gravityChanges = {{.time = 1, .gravity = 3 * world.gravity}};
+  world.bodies.push_back(crate("a", Vec3::Constant(0.25), Vec3(0, 0, 1), {}));
+  CrowdStages stages(world);
+  stages.members.time = 0.5;
+  stages.members.h = 0.25;
+  stages.memory.length = 0.5;
+  stages.loads.find();
+  EXPECT_LT((stages.loads.acceleration(1) - 2.25 * world.gravity).norm(), 1e-14);
+  EXPECT_LT((stages.loads.accelerationBefore(1) - 1.5 * world.gravity).norm(), 1e-14);
+}
+
 // Implicit midpoint from rest: x' = x + h²/4 a, a = −k/m x', so a = −k/m x / (1 + k h²/4m).
 TEST(CrowdLoads, springPullsAsInTheMiddleOfTheStep) {
   const World world = pulledCrate();

@@ -105,14 +105,14 @@ TEST(PilePairs, areOfAllBoxesOfTwoBodies) {
   }
   PilePairs pairs;
   pairs.update(bodies, Vec3::Zero(), 0.01, 0.1);
-  using Boxes = std::array<int, 4>;
-  std::vector<Boxes> found;
+  using FoundBoxes = std::array<int, 4>;
+  std::vector<FoundBoxes> found;
   for (const PilePair& pair : pairs.pairs()) {
     found.push_back({pair.a, pair.boxA, pair.b, pair.boxB});
   }
-  const std::vector<Boxes> expected{{1, 0, 2, 0}, {1, 1, 2, 0}, {1, 0, 3, 0}, {1, 0, 3, 1},
-                                    {1, 1, 3, 0}, {1, 1, 3, 1}, {1, 0, 0, 0}, {1, 1, 0, 0},
-                                    {2, 0, 3, 0}, {2, 0, 3, 1}, {3, 0, 0, 0}, {3, 1, 0, 0}};
+  const std::vector<FoundBoxes> expected{{1, 0, 2, 0}, {1, 1, 2, 0}, {1, 0, 3, 0}, {1, 0, 3, 1},
+                                         {1, 1, 3, 0}, {1, 1, 3, 1}, {1, 0, 0, 0}, {1, 1, 0, 0},
+                                         {2, 0, 3, 0}, {2, 0, 3, 1}, {3, 0, 0, 0}, {3, 1, 0, 0}};
   EXPECT_EQ(found, expected);
 }
 

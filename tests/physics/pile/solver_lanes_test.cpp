@@ -17,6 +17,8 @@
 namespace careen {
 namespace {
 
+using test::normalSpeed;
+
 // A chain of boxes whose neighbours touch at up to four points, thrown together: rows of any length in blocks
 // that share bodies.
 std::vector<double> solved(Registers registers) {

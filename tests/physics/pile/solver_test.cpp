@@ -16,6 +16,8 @@
 namespace careen {
 namespace {
 
+using test::normalSpeed;
+
 constexpr int kAcross = 12;
 constexpr int kHigh = 8;
 constexpr int kBodies = kAcross * kAcross * kHigh;

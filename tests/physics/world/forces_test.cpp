@@ -21,7 +21,7 @@ std::vector<BodyState> statesOf(const World& world) {
 
 std::vector<Load> loadsOf(const World& world) {
   std::vector<Load> loads;
-  computeLoads(world, statesOf(world), loads);
+  computeLoads(world, world.gravity, statesOf(world), loads);
   return loads;
 }
 

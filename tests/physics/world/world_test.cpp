@@ -50,6 +50,33 @@ TEST(World, tellsGravityAtAnyTime) {
   EXPECT_EQ(mostGravity(world), 5);
 }
 
+// From 2 at 0 s to 5 at 1 s and −1 at 3 s, along x: of 0.5 to 2 s (0.5 · 4.25 + 1 · 3.5)/1.5; of 0 to 4 s
+// (1 · 3.5 + 2 · 2 − 1)/4. Where it changes next it goes straight on.
+TEST(World, tellsGravityThatSlopes) {
+  World world;
+  world.gravity = Vec3(2, 0, 0);
+  world.gravityPath = GravityPath::kLinear;
+  world.gravityChanges = {{.time = 1, .gravity = Vec3(5, 0, 0)}, {.time = 3, .gravity = Vec3(-1, 0, 0)}};
+  EXPECT_EQ(gravityAt(world, 0).x(), 2);
+  EXPECT_EQ(gravityAt(world, 0.5).x(), 3.5);
+  EXPECT_EQ(gravityAt(world, 1).x(), 5);
+  EXPECT_EQ(gravityAt(world, 2).x(), 2);
+  EXPECT_EQ(gravityAt(world, 9).x(), -1);
+  EXPECT_NEAR(meanGravity(world, 0.5, 2).x(), (0.5 * 4.25 + 3.5) / 1.5, 1e-15);
+  EXPECT_NEAR(meanGravity(world, 0, 4).x(), 6.5 / 4, 1e-15);
+  EXPECT_EQ(meanGravity(world, 0.5, 0.5).x(), 3.5);
+  EXPECT_TRUE(isGravitySloping(world));
+  EXPECT_EQ(gravitySlope(world), Vec3(3, 0, 0));
+  EXPECT_EQ(gravityNow(world, 1.5).x(), 6.5);
+  EXPECT_EQ(gravityScale(world), 5);
+  world.gravityChanges.front().gravity = world.gravity;
+  EXPECT_FALSE(isGravitySloping(world));
+  EXPECT_EQ(gravitySlope(world), Vec3(0, 0, 0));
+  world.gravityChanges.clear();
+  EXPECT_FALSE(isGravitySloping(world));
+  EXPECT_EQ(gravityAt(world, 3), world.gravity);
+}
+
 TEST(World, letsThoseThroughThatItNames) {
   World world;
   EXPECT_TRUE(mayTouch(world, 0, 1));

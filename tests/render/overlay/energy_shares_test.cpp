@@ -54,6 +54,24 @@ TEST(EnergyShares, eachGravityHasItsOwnLowestPlace) {
   }
 }
 
+// That of a gravity between two is never above what it has: none is negative, nor jumps.
+TEST(EnergyShares, slopesHaveTheLowestPlacesBetween) {
+  Scene scene = dropped(1);
+  scene.settings.duration = 0.5;
+  scene.gravityPath = GravityPath::kLinear;
+  scene.gravityChanges = {{.time = 0.4, .gravity = Vec3(0, 0, 10)}};
+  const Trajectory trajectory = runOf(scene);
+  const EnergyBook book(trajectory);
+  double before = book.sharesOf(trajectory.states(0), 0).gravity;
+  for (int k = 1; k <= 500; ++k) {
+    const double time = k / 1000.0;
+    const double now = book.sharesOf(trajectory.states(time), time).gravity;
+    EXPECT_GE(now, -1e-12) << time;
+    EXPECT_NEAR(now, before, 0.1) << time;
+    before = now;
+  }
+}
+
 TEST(EnergyShares, bounceTakesWhatRestitutionSays) {
   const Scene scene = dropped(0.5);
   const Trajectory trajectory = runOf(scene);
