@@ -125,7 +125,6 @@ TEST_F(Render, refusesWhatCannotBeFilmed) {
                                              {"--log", "xml"},
                                              {"--video", "film.avi"},
                                              {"--video=film.webm", "--codec=h264"},
-                                             {"--video=film.gif", "--fps=60"},
                                              {"--video=film.mp4", "--quality=ultra"}}) {
     std::vector<std::string> arguments = {"render", "scene.json", "--out", "film"};
     arguments.insert(arguments.end(), options.begin(), options.end());

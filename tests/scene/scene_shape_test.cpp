@@ -317,7 +317,7 @@ const std::vector<BadPiece> kBadValues = {
     {"[0, 0, -9.81]", "@-9.81", "found -9.81 for gravity, expected [x, y, z] [m/s²]"},
     {"[0, 0, -9.81]", "@[0, -9.81]", "found an array of 2 for gravity, expected [x, y, z] [m/s²]"},
     {"[0, 0, -9.81]", R"({ "path": [[0, 0, 0, -1]], @"smooth": true })",
-     R"(found the unknown key "smooth" in gravity, expected path or linear)"},
+     R"(found the unknown key "smooth" in gravity, expected one of path, linear)"},
     {"[0, 0, -9.81]", R"({ "path": [[0, 0, 0, -1]], "linear": @1 })",
      "found 1 for gravity.linear, expected true or false"},
     {"[0, 0, -9.81]", R"({ "path": @[[0, 0, 0, -1]], "linear": true })",

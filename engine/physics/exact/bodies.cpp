@@ -445,11 +445,6 @@ double Bodies::withinCell(double speed) const {
              : longestStep_;
 }
 
-bool Bodies::isTooMany(int movable) const {
-  return crowds_.areAllowed() &&
-         movable > (crowds_.when == CrowdSettings::When::kAbove ? crowds_.above : kFew);
-}
-
 double Bodies::workLeft(std::span<const int> ranks, const Instant& time) const {
   if (!crowds_.areAllowed()) {
     return std::numeric_limits<double>::infinity();
@@ -476,6 +471,12 @@ double untilChange(const Bodies& bodies, const Joint& joint, const Instant& time
     next = bodies.changing()->nextOf(static_cast<int>(&joint - bodies.world().joints.data()));
   }
   return std::isfinite(next) ? secondsBetween(time, Instant(next)) : next;
+}
+
+bool isTooMany(const Bodies& bodies, int movable) {
+  const CrowdSettings& crowds = bodies.crowds();
+  return crowds.areAllowed() &&
+         movable > (crowds.when == CrowdSettings::When::kAbove ? crowds.above : Bodies::kFew);
 }
 
 }  // namespace careen

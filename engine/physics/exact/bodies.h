@@ -114,8 +114,6 @@ class Bodies {
   /// What these may still spend; negative where they must go on as a crowd. In a scene of more than a few,
   /// those in contact of whom one is in such doubt as a crowd is anyway may spend nothing at once.
   double workLeft(std::span<const int> ranks, const Instant& time) const;
-  /// Of more than a few bodies in contact, time steps cost so much that it does not pay to begin.
-  bool isTooMany(int movable) const;
 
   /// Most events of one body at one moment before it goes on in a crowd, and of twice as many the run gives
   /// up: more than any impact needs, and a bound on endless repetition.
@@ -149,6 +147,8 @@ class Bodies {
   std::vector<std::vector<int>> bonds_;  // by rank
 };
 
+/// Of more than a few bodies in contact, time steps cost so much that it does not pay to begin.
+bool isTooMany(const Bodies& bodies, int movable);
 /// A body that takes part in an impact at that time, in this state after it.
 DoubtfulBody doubtful(Bodies& bodies, int rank, const Instant& time, const BodyState& after);
 /// [s] From that time on, until a joint lets go or its motor may change.

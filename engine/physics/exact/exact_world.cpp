@@ -294,7 +294,7 @@ bool ExactWorld::goesOnAsCrowd(const Encounter& encounter) const {
       return true;
     }
   }
-  return moves && rubs && bodies_.isTooMany(movable.count());
+  return moves && rubs && isTooMany(bodies_, movable.count());
 }
 
 bool ExactWorld::costsTooMuch(const Encounter& encounter) const {
@@ -305,7 +305,7 @@ bool ExactWorld::costsTooMuch(const Encounter& encounter) const {
         movable.add(bodies_[rank].listed.value);
       }
     }
-    return bodies_.isTooMany(movable.count());
+    return isTooMany(bodies_, movable.count());
   };
   return std::any_of(encounter.islands.begin(), encounter.islands.end(), isTooLarge) ||
          (!encounter.islands.empty() && bodies_.workLeft(encounter.ranks(), encounter.time) < 0);

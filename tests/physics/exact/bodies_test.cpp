@@ -161,13 +161,13 @@ TEST(Bodies, tellWhenAPlaceMeansNothing) {
 
 TEST(Bodies, areTooManyWhereTheSceneSaysSo) {
   StartedBodies above(afloat({}), {.when = CrowdSettings::When::kAbove, .above = 3});
-  EXPECT_FALSE(above.bodies.isTooMany(3));
-  EXPECT_TRUE(above.bodies.isTooMany(4));
+  EXPECT_FALSE(isTooMany(above.bodies, 3));
+  EXPECT_TRUE(isTooMany(above.bodies, 4));
   StartedBodies automatic(afloat({}));
-  EXPECT_FALSE(automatic.bodies.isTooMany(16));
-  EXPECT_TRUE(automatic.bodies.isTooMany(17));
+  EXPECT_FALSE(isTooMany(automatic.bodies, 16));
+  EXPECT_TRUE(isTooMany(automatic.bodies, 17));
   StartedBodies never(afloat({}), {.when = CrowdSettings::When::kNever});
-  EXPECT_FALSE(never.bodies.isTooMany(1000));
+  EXPECT_FALSE(isTooMany(never.bodies, 1000));
 }
 
 // Ten cubes have cells of 8/7 of √3 m; without gravity the margin of 1/32 of that is crossed at that speed.
