@@ -386,7 +386,7 @@ std::optional<Friction> frictionOf(const ObservedEncounter& encounter) {
           std::fabs(velocity.dot(normal)) +
           encounter.seconds * (encounter.gravity.norm() + spin * spin * radiusOf(*encounter.body));
       if (point.gap <= encounter.near + speed * encounter.seconds) {
-        slips.push_back(velocity - velocity.dot(normal) * normal);
+        slips.emplace_back(velocity - velocity.dot(normal) * normal);
         places.push_back(point.place);
       }
     }

@@ -35,11 +35,13 @@ constexpr int kMostUnsolved = 10;
 double timeToSink(double slope, double length) {
   const double cube = 12 * length / slope;
   double time = 1 + cube;
-  for (double next = (2 * time + cube / (time * time)) / 3; next < time;
-       next = (2 * time + cube / (time * time)) / 3) {
+  while (true) {
+    const double next = (2 * time + cube / (time * time)) / 3;
+    if (!(next < time)) {
+      return time;
+    }
     time = next;
   }
-  return time;
 }
 
 }  // namespace
