@@ -152,15 +152,6 @@ std::optional<TruthSettings> truthOf(const FilmOptions& options, const FilmSetti
   return truth;
 }
 
-// Checks that need the film's own rate.
-void checkVideoOf(const PictureSettings& picture, FilmSettings& settings) {
-  if (settings.video) {
-    settings.video->rateNumerator = picture.rate.numerator;
-    settings.video->rateDenominator = picture.rate.denominator;
-    checkVideo(*settings.video);
-  }
-}
-
 // With the runs beside it.
 PictureSettings wholePicture(const Run& run, const FilmSettings& settings) {
   PictureSettings picture = run.trajectory.stage.picture;
@@ -308,7 +299,10 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   options.picture.applyTo(picture);
   const std::vector<Trajectory> others = options.others.read(run, options.scene);
   options.others.takeInto(settings, others);
-  checkVideoOf(picture, settings);
+  if (settings.video) {
+    settings.video->rateNumerator = picture.rate.numerator;
+    settings.video->rateDenominator = picture.rate.denominator;
+  }
   if (!makesFilm) {
     return drawStill(run, settings.render,
                      {.path = options.folder,

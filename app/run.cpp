@@ -258,7 +258,8 @@ void SceneOfTable::addShowingTo(const CommandLine& command) {
 }
 
 const char* SceneOfTable::useless() const {
-  return path && mayShow ? shiftsTime ? "--shift-time" : nullptr : given();
+  const char* const clock = shiftsTime ? "--shift-time" : nullptr;
+  return path && mayShow ? clock : given();
 }
 
 const char* SceneOfTable::given() const { return path ? "--scene" : shiftsTime ? "--shift-time" : nullptr; }

@@ -42,11 +42,18 @@ double radiation(const BlockMode& mode, const Vec3& half) {
   return kAirDensity * kSpeedOfSound * radius * std::min(1.0, wave * radius);
 }
 
-/// The strikes of a body, on one of its modes.
+/// A mode of a body, and its strikes, in order of time.
+struct StruckMode {
+  BlockMode mode;
+  std::span<const Strike> strikes;
+  std::vector<double> loudness;  ///< [Pa] of each strike
+};
+
+/// Its sound, from `floor` [Pa] on.
 class Ringing {
  public:
-  Ringing(const BlockMode& mode, std::span<const Strike> strikes, std::vector<double> loudness, double floor)
-      : mode_(mode), strikes_(strikes), loudness_(std::move(loudness)), floor_(floor) {}
+  Ringing(const StruckMode& struck, double floor)
+      : mode_(struck.mode), strikes_(struck.strikes), loudness_(struck.loudness), floor_(floor) {}
 
   void addTo(std::span<double> samples, std::int64_t first, std::span<const SampleRun> runs, Pitch pitch) {
     for (const SampleRun& run : runs) {
@@ -101,8 +108,8 @@ class Ringing {
 
   const BlockMode& mode_;
   std::span<const Strike> strikes_;
-  std::vector<double> loudness_;  // [Pa] of each strike
-  double floor_;                  // [Pa]
+  std::span<const double> loudness_;
+  double floor_;
   Phasor state_;
   Phasor turn_;
   double rate_ = 1;
@@ -132,25 +139,21 @@ void addRinging(std::span<double> samples, std::int64_t first, const Trajectory&
   for (const Strike& strike : strikes) {
     byBody[strike.body].push_back(strike);
   }
-  std::map<std::size_t, std::vector<BlockMode>> modes;
+  std::vector<StruckMode> all;
   double loudest = 0;
   for (const auto& [index, ofBody] : byBody) {
     const Body& body = run.world.bodies[index];
-    modes[index] = modesOf(body.halfExtents, soundOf(run.stage, index), kHighest / slowest, kMostModes);
-    for (const BlockMode& mode : modes[index]) {
+    const SoundMaterial& material = soundOf(run.stage, index);
+    for (const BlockMode& mode : modesOf(body.halfExtents, material, kHighest / slowest, kMostModes)) {
+      StruckMode& struck = all.emplace_back(StruckMode{.mode = mode, .strikes = ofBody, .loudness = {}});
       for (const Strike& strike : ofBody) {
-        loudest = std::max(loudest, std::fabs(loudnessOf(mode, body, strike)));
+        struck.loudness.push_back(loudnessOf(mode, body, strike));
+        loudest = std::max(loudest, std::fabs(struck.loudness.back()));
       }
     }
   }
-  for (const auto& [index, ofBody] : byBody) {
-    for (const BlockMode& mode : modes[index]) {
-      std::vector<double> loudness;
-      for (const Strike& strike : ofBody) {
-        loudness.push_back(loudnessOf(mode, run.world.bodies[index], strike));
-      }
-      Ringing(mode, ofBody, std::move(loudness), kSilence * loudest).addTo(samples, first, runs, pitch);
-    }
+  for (const StruckMode& struck : all) {
+    Ringing(struck, kSilence * loudest).addTo(samples, first, runs, pitch);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "core/error.h"
@@ -26,8 +27,9 @@ Picture joined(const std::vector<Picture>& pictures) {
 }
 
 void entitle(Trajectory& run, const std::string& name) {
-  // From before the film begins, so that it does not fade.
-  run.stage.scenery.titles.push_back({.from = -1, .to = 1e9, .text = name, .place = TitlePlace::kBottom});
+  constexpr double kAlways = std::numeric_limits<double>::infinity();  // so that it does not fade
+  run.stage.scenery.titles.push_back(
+      {.from = -kAlways, .to = kAlways, .text = name, .place = TitlePlace::kBottom});
 }
 
 }  // namespace
