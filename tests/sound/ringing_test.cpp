@@ -35,11 +35,11 @@ TEST(Ringing, beginsWithTheImpactWithinOneSampleAndDoesNotJump) {
     EXPECT_GE(static_cast<double>(first), time * kSampleRate);
     EXPECT_LE(static_cast<double>(first), time * kSampleRate + 1);
     const double largest = *std::max_element(samples.begin(), samples.end());
-    EXPECT_LT(std::fabs(samples[first]), 0.3 * largest) << height;
+    EXPECT_LT(std::fabs(samples[first]), 0.15 * largest) << height;  // measured at most 0.12
   }
 }
 
-// The tone of the block's first bending mode is louder than those 6 % beside it.
+// Tones of its bending modes are louder than those 6 % beside them: measured 22 times and more.
 TEST(Ringing, hasTheTonesOfTheBlock) {
   Trajectory run = dropped(1);
   run.stage.boxSounds = {{.modulus = 11e9, .density = 600, .damping = 0.002}};
@@ -49,8 +49,8 @@ TEST(Ringing, hasTheTonesOfTheBlock) {
     if (mode.kind == BlockMode::Kind::kBending && mode.across == 2 && mode.order % 2 == 1 &&
         mode.along == 0) {
       const std::span<const double> ring = std::span(samples).subspan(firstHeard(samples), 9600);
-      EXPECT_GT(toneIn(ring, mode.frequency), 2 * toneIn(ring, 1.06 * mode.frequency)) << mode.frequency;
-      EXPECT_GT(toneIn(ring, mode.frequency), 2 * toneIn(ring, 0.94 * mode.frequency)) << mode.frequency;
+      EXPECT_GT(toneIn(ring, mode.frequency), 15 * toneIn(ring, 1.06 * mode.frequency)) << mode.frequency;
+      EXPECT_GT(toneIn(ring, mode.frequency), 15 * toneIn(ring, 0.94 * mode.frequency)) << mode.frequency;
       ++checked;
     }
   }
@@ -65,7 +65,7 @@ TEST(Ringing, isAsLoudAsTheImpact) {
   };
   const double ratio = loudest(rung(dropped(0.8))) / loudest(rung(dropped(0.2)));
   EXPECT_GT(ratio, 2);
-  EXPECT_LT(ratio, 2.8);
+  EXPECT_LT(ratio, 2.4);  // measured 2.26
 }
 
 // In a film at half the speed, every other sample is one of the film at full speed.
@@ -79,7 +79,7 @@ TEST(Ringing, inSlowMotionIsLowerAndSlower) {
   EXPECT_LT(high.back().frequency, 20'000) << "or there were more modes in the slow film";
   const double largest = *std::max_element(normal.begin(), normal.end());
   for (std::size_t k = 0; k < normal.size(); ++k) {
-    ASSERT_NEAR(slow[2 * k], normal[k], 1e-5 * largest) << k;
+    ASSERT_NEAR(slow[2 * k], normal[k], 1e-11 * largest) << k;  // measured 5e-13
   }
 }
 
@@ -94,7 +94,7 @@ TEST(Ringing, inSlowMotionCanKeepItsPitch) {
   const std::span<const double> here = std::span(slow).subspan(first, 4800);
   const std::span<const double> there = std::span(normal).subspan(firstHeard(normal), 4800);
   for (const double tone : {171.5, 400.0, 900.0}) {
-    EXPECT_NEAR(toneIn(here, tone), toneIn(there, tone), 0.05 * toneIn(there, tone)) << tone;
+    EXPECT_NEAR(toneIn(here, tone), toneIn(there, tone), 0.002 * toneIn(there, tone)) << tone;
   }
 }
 
@@ -113,7 +113,7 @@ TEST(Ringing, fallsSilentWhereThePictureIsFrozen) {
     jump = std::max(jump, std::fabs(samples[k] - samples[k - 1]));
     largest = std::max(largest, std::fabs(samples[k]));
   }
-  EXPECT_LT(jump, 0.6 * largest);
+  EXPECT_LT(jump, 0.15 * largest);  // measured 0.123
 }
 
 // A part of a film has the samples of the whole.
@@ -121,10 +121,7 @@ TEST(Ringing, ofAPartIsThatOfTheWhole) {
   const Trajectory run = dropped(0.2);
   const std::vector<double> whole = rung(run);
   const std::vector<double> part = rung(run, Pitch::kSlows, 9000);
-  const double largest = *std::max_element(whole.begin(), whole.end());
-  for (std::size_t k = 0; k < part.size(); ++k) {
-    ASSERT_NEAR(part[k], whole[9000 + k], 1e-5 * largest) << k;
-  }
+  EXPECT_TRUE(std::equal(part.begin(), part.end(), whole.begin() + 9000));
 }
 
 }  // namespace

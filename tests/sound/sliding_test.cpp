@@ -38,8 +38,8 @@ double meanSquare(const std::vector<double>& samples) {
 TEST(Sliding, hasThePowerOfFriction) {
   const double eight = meanSquare(heard(slide(8)));
   const double pressure = 3e-5 * 38.4 * 1.2 * 343 / (4 * std::numbers::pi * 17);
-  EXPECT_NEAR(eight, pressure, 0.2 * pressure);
-  EXPECT_NEAR(eight / meanSquare(heard(slide(4))), 2.1, 0.3);
+  EXPECT_NEAR(eight, pressure, 0.1 * pressure);  // measured 0.92: a quarter of a second of noise
+  EXPECT_NEAR(eight / meanSquare(heard(slide(4))), 2.09, 0.12);  // measured 1.99
 }
 
 TEST(Sliding, isBrighterIfFaster) {
@@ -52,7 +52,7 @@ TEST(Sliding, isBrighterIfFaster) {
     }
     return high / low;
   };
-  EXPECT_GT(brightness(heard(slide(4))), 2 * brightness(heard(slide(1))));
+  EXPECT_GT(brightness(heard(slide(4))), 5 * brightness(heard(slide(1))));
 }
 
 TEST(Sliding, isSilentWhereNothingSlides) {
@@ -64,7 +64,7 @@ TEST(Sliding, isSilentWhereNothingSlides) {
   EXPECT_EQ(meanSquare(heard(smooth)), 0);
   Scene rides = slide(1);  // on a belt that is as fast
   rides.walls[0].material.surface.velocity = Vec3(1, 0, 0);
-  EXPECT_LT(meanSquare(heard(rides)), 1e-12);
+  EXPECT_EQ(meanSquare(heard(rides)), 0);
 }
 
 TEST(Sliding, isSilentWhereThePictureIsFrozen) {
