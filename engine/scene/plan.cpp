@@ -401,12 +401,7 @@ World assemble(const Scene& scene, const Plan& plan) {
 Stage stageOf(const Scene& scene) {
   Stage stage;
   stage.name = scene.name;
-  stage.camera = scene.camera;
-  stage.cameraMove = scene.cameraMove;
-  stage.timeMap = scene.timeMap;
-  stage.picture = scene.picture;
-  stage.scenery = scene.scenery;
-  stage.focus = scene.focus;
+  static_cast<Showing&>(stage) = scene;
   if (scene.room) {
     stage.room = *scene.room;
   }

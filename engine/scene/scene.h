@@ -10,13 +10,9 @@
 #include "physics/world/body.h"
 #include "physics/world/run_settings.h"
 #include "physics/world/world.h"
-#include "stage/camera.h"
 #include "stage/color.h"
-#include "stage/picture_settings.h"
-#include "stage/scenery.h"
 #include "stage/sound_material.h"
 #include "stage/stage.h"
-#include "stage/time_map.h"
 #include "stage/triangle_mesh.h"
 
 namespace careen {
@@ -47,7 +43,7 @@ struct SceneBox {
 };
 
 /// A scene file, read and checked. Angles are in radians, except the camera's.
-struct Scene {
+struct Scene : Showing {
   RunSettings settings;
   std::string text;  ///< the file, byte for byte
   std::string name = "untitled";
@@ -63,12 +59,6 @@ struct Scene {
   std::vector<Joint> joints;               ///< their ends in frames of boxes, with their origin in the middle
   std::vector<std::pair<int, int>> apart;  ///< boxes that pass through each other, as in World
   std::optional<Drag> drag;
-  std::optional<Camera> camera;  ///< absent: a camera that sees the whole motion is chosen
-  CameraMove cameraMove;         ///< empty if there is no camera
-  TimeMap timeMap;
-  std::optional<Focus> focus;  ///< absent: all is sharp
-  PictureSettings picture;
-  Scenery scenery;
 };
 
 /// Name of a wall of the room: "room-x" for side 0.

@@ -2,7 +2,6 @@
 
 #include "core/hash.h"
 #include "scene/film_check.h"
-#include "scene/plan.h"
 #include "scene/scene_shape.h"
 
 namespace careen {
@@ -15,17 +14,10 @@ void showAs(RunSetup& run, const std::string& sceneText, const std::string& name
     scene.boxes.emplace_back().name = body.name;
   }
   checkShown(tree, BoxNames(scene), scene);
-  Stage asked = stageOf(scene);
-  Stage& stage = run.stage;
-  stage.camera = asked.camera;
-  stage.cameraMove = asked.cameraMove;
-  stage.focus = asked.focus;
-  stage.timeMap = asked.timeMap;
-  stage.picture = asked.picture;
-  stage.scenery = asked.scenery;
+  static_cast<Showing&>(run.stage) = scene;
   Hash hash;
   hash.add(sceneText);
-  stage.shownAs = hash.text();
+  run.stage.shownAs = hash.text();
 }
 
 }  // namespace careen

@@ -48,19 +48,23 @@ struct Plane {
   }
 };
 
-/// How a run is shown. Walls are drawn whether or not anything that moves can hit them.
-struct Stage {
-  std::string name = "untitled";  ///< the scene's
-  std::optional<RoomShape> room;
-  std::vector<Plane> planes;     ///< walls other than the room's
-  std::vector<Color> colors;     ///< of the boxes, in their order
-  std::vector<DrawnPart> parts;  ///< meshes drawn in place of boxes, by ascending body
+/// What a scene says of how a run of it is shown, and what another scene may say in its place.
+struct Showing {
   std::optional<Camera> camera;  ///< absent: a camera that sees the whole motion is chosen
   CameraMove cameraMove;         ///< empty if there is no camera
+  std::optional<Focus> focus;    ///< absent: all is sharp
   TimeMap timeMap;
   PictureSettings picture;
   Scenery scenery;
-  std::optional<Focus> focus;             ///< absent: all is sharp
+};
+
+/// How a run is shown. Walls are drawn whether or not anything that moves can hit them.
+struct Stage : Showing {
+  std::string name = "untitled";  ///< the scene's
+  std::optional<RoomShape> room;
+  std::vector<Plane> planes;              ///< walls other than the room's
+  std::vector<Color> colors;              ///< of the boxes, in their order
+  std::vector<DrawnPart> parts;           ///< meshes drawn in place of boxes, by ascending body
   std::vector<SoundMaterial> boxSounds;   ///< of the boxes; empty: all are of wood
   std::vector<SoundMaterial> wallSounds;  ///< of the walls, those of the room first; empty: all are of stone
   std::string shownAs;  ///< hash of the scene whose camera and light these are; empty: the run's own

@@ -140,13 +140,8 @@ void showBeside(Trajectory& run, const Trajectory& first, const std::string& nam
     body = static_cast<std::size_t>(found - run.world.bodies.begin());
   };
   Stage& stage = run.stage;
-  stage.camera = first.stage.camera;
-  stage.cameraMove = first.stage.cameraMove;
-  stage.focus = first.stage.focus;
-  stage.timeMap = first.stage.timeMap;
-  stage.picture = first.stage.picture;
+  static_cast<Showing&>(stage) = first.stage;
   stage.picture.overlays.remove(Overlay::kTime);
-  stage.scenery = first.stage.scenery;
   stage.scenery.titles.clear();
   sameBox(stage.cameraMove.followed);
   if (stage.focus) {
