@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "render/draw/cell_inputs.h"
 #include "render/draw/drawn_box.h"
 #include "view/surfaces.h"
 
@@ -24,6 +25,7 @@ struct Decals {
   std::vector<float> vertices;
   std::vector<std::uint32_t> triangles;
   std::uint32_t count = 0;  ///< of vertices
+  PieceVertices pieces;     ///< if there are inputs of cells
 
   /// Appends the triangles of a convex outline whose vertices follow.
   void addFan(std::size_t corners);

@@ -47,6 +47,12 @@ struct DrawnFace {
   Vec3 along = Vec3::Zero();   ///< [m] likewise, perpendicular to it
 };
 
+/// Its corners, counterclockwise or clockwise.
+inline std::array<Vec3, 4> outlineOf(const DrawnFace& face) {
+  return {face.centre - face.across - face.along, face.centre + face.across - face.along,
+          face.centre + face.across + face.along, face.centre - face.across + face.along};
+}
+
 /// [px] Faces thinner than this are lit more and more like the widest face of their box: a face thinner than
 /// a pixel is a row of dots, which then do not stand out.
 inline constexpr double kThinFace = 2;

@@ -2,49 +2,74 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace careen {
 namespace {
 
-constexpr double kMargin = 0.1;  // [1] of a cell
+constexpr double kMargin = 0.1;  // [1] of a cell: some pixels
 
 }  // namespace
 
-void PictureCells::mark(const std::vector<Vec3>& outline) {
+PixelRectangle PictureCells::pixelsOf(int column, int endColumn, int row, int endRow, int width, int height) {
+  return {.left = width * column / kColumns,
+          .bottom = height * row / kRows,
+          .right = width * endColumn / kColumns,
+          .top = height * endRow / kRows};
+}
+
+void PictureCells::append(const View& view, std::span<const Vec3> outline, const Vec2& margin,
+                          std::vector<std::uint16_t>& cells) {
   std::vector<Vec2> corners;  // in cells, from the lower left corner
+  double low = kRows;
+  double high = 0;
   for (const Vec3& point : outline) {
-    const Vec4 clip = view_.clipFromWorld(point);
+    const Vec4 clip = view.clipFromWorld(point);
     if (clip.w() <= 1e-9 * std::abs(clip.z())) {
-      markAll();
+      const std::size_t before = cells.size();
+      cells.resize(before + kCount);
+      std::iota(cells.begin() + static_cast<std::ptrdiff_t>(before), cells.end(), std::uint16_t{0});
       return;
     }
     corners.emplace_back((0.5 + 0.5 * clip.x() / clip.w()) * kColumns,
                          (0.5 + 0.5 * clip.y() / clip.w()) * kRows);
+    low = std::min(low, corners.back().y());
+    high = std::max(high, corners.back().y());
   }
-  for (int row = 0; row < kRows; ++row) {
+  const int last = static_cast<int>(std::clamp<double>(std::floor(high + margin.y()), -1, kRows - 1));
+  for (int row = static_cast<int>(std::clamp<double>(std::floor(low - margin.y()), 0, kRows)); row <= last;
+       ++row) {
     double least = kColumns;
     double most = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vec2& from = corners[i];
       const Vec2& to = corners[(i + 1) % corners.size()];
-      // The part of the edge in this row, with a margin of some pixels.
-      const double low = std::max(std::min(from.y(), to.y()), row - kMargin);
-      const double high = std::min(std::max(from.y(), to.y()), row + 1 + kMargin);
-      if (low > high) {
+      // The part of the edge in this row, with the margin.
+      const double bottom = std::max(std::min(from.y(), to.y()), row - margin.y());
+      const double top = std::min(std::max(from.y(), to.y()), row + 1 + margin.y());
+      if (bottom > top) {
         continue;
       }
       const double slope = to.y() == from.y() ? 0 : (to.x() - from.x()) / (to.y() - from.y());
-      for (const double x : {to.y() == from.y() ? to.x() : from.x() + (low - from.y()) * slope,
-                             from.x() + (high - from.y()) * slope}) {
+      for (const double x : {to.y() == from.y() ? to.x() : from.x() + (bottom - from.y()) * slope,
+                             from.x() + (top - from.y()) * slope}) {
         least = std::min(least, x);
         most = std::max(most, x);
       }
     }
-    const int first = static_cast<int>(std::clamp<double>(std::floor(least - kMargin), 0, kColumns));
-    const int end = static_cast<int>(std::clamp<double>(std::floor(most + kMargin) + 1, 0, kColumns));
+    const int first = static_cast<int>(std::clamp<double>(std::floor(least - margin.x()), 0, kColumns));
+    const int end = static_cast<int>(std::clamp<double>(std::floor(most + margin.x()) + 1, 0, kColumns));
     for (int column = first; column < end && least <= most; ++column) {
-      marked_.at(static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column)) = true;
+      cells.push_back(static_cast<std::uint16_t>(indexOf(column, row)));
     }
+  }
+}
+
+void PictureCells::mark(std::span<const Vec3> outline) {
+  std::vector<std::uint16_t> cells;
+  append(view_, outline, Vec2(kMargin, kMargin), cells);
+  for (const std::uint16_t cell : cells) {
+    marked_.set(cell);
   }
 }
 

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "core/error.h"
 #include "core/system/clock.h"
 #include "core/system/resource.h"
 #include "render/draw/box_batch.h"
+#include "render/draw/cell_inputs.h"
+#include "render/draw/cell_mask.h"
 #include "render/draw/frame_block.h"
 #include "render/draw/light_plane.h"
 #include "render/draw/neighbors.h"
@@ -86,9 +89,13 @@ struct Renderer::Parts {
   Parts(const RunSetup& setup, const RenderOptions& options);
   void look(const Shot& shot);
   void place(std::span<const Pose> poses, const Camera& from);
+  bool mayKeepCells(std::span<const DrawnBox> drawn) const;
+  void findCells();
+  void fill();
   void drawOcclusion();
   void drawShaded(std::size_t layer);
   void drawPicture();
+  const Picture& read();
   void drawOver(Picture& picture, const OverlayShapes& shapes);
   void upload() const;
 
@@ -119,6 +126,11 @@ struct Renderer::Parts {
   unsigned backgroundProgram;
   unsigned blockBuffer = 0;
   FrameBlock block;
+  FrameBlock blockBefore;            // of the shot before
+  std::optional<CellInputs> inputs;  // if all but boxes may be as in the shot before
+  std::optional<CellInputs> kept;    // of the picture that the canvas has, if known
+  PictureCells::Set cells;           // that differ from it, and are drawn
+  CellMask mask;
   DrawFigures figures;
 };
 
@@ -149,7 +161,8 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
                tileSize(extent)),
       backgroundArray(makeVertexArray(gl)),
       backgroundProgram(
-          linkProgram(gl, shaders, {"background.vert", "background.frag", "write_lit.frag", "finish.frag"})) {
+          linkProgram(gl, shaders, {"background.vert", "background.frag", "write_lit.frag", "finish.frag"})),
+      mask(gl, shaders) {
   if (shadows) {
     shadowBatch.emplace(gl, shaders);
   }
@@ -216,34 +229,41 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
   }
   shadedCells = PictureCells(view);
   occludedCells = PictureCells(view);
+  double returned = 0;  // the mean of all boxes
+  if (occlusion && stage.picture.light.has(LightPart::kBounce)) {
+    for (DrawnBox& box : drawn) {
+      const Vec3 albedo = (1 - materials.ownColor) * materials.boxColor + materials.ownColor * box.color;
+      box.returned = materials.bounce * albedo;
+      returned += kReturnedToBoxes * box.returned.mean() / static_cast<double>(drawn.size());
+    }
+  }
+  block.up = floats(camera.up.normalized(), returned);
+  inputs.reset();
+  if (mayKeepCells(drawn)) {
+    inputs.emplace(view, canvas.drawnWidth(), canvas.drawnHeight());
+    surfaces.add(*inputs);
+  }
+  CellInputs* const into = inputs ? &*inputs : nullptr;
   FaceShadows cast{.pairs = {}, .isDark = std::vector<bool>(faces.size())};
   const Vec3 towards = lighting.light ? Vec3(lighting.light->towards.normalized()) : Vec3(Vec3::UnitZ());
   if (shadows) {
     const ShadowLight light{.towards = towards, .spread = kCurveOfDisc * lighting.light->spread};
     LightPlane plane(light.towards, drawn);
     cast = shadowsOnFaces(plane, drawn, faces, view.eye, light.spread, pixel);
-    shadowBatch->place(drawn, surfaces.surfaces(), light, view.eye, pixel, hidden, shadedCells);
+    shadowBatch->place(drawn, surfaces.surfaces(), light, view.eye, pixel, hidden, shadedCells, into);
   } else if (lighting.light) {
     std::transform(faces.begin(), faces.end(), cast.isDark.begin(),
                    [&](const DrawnFace& face) { return face.normal.dot(towards) <= 0; });
   }
   FaceNeighbors neighbors;
-  double returned = 0;  // the mean of all boxes
   if (occlusion) {
-    if (stage.picture.light.has(LightPart::kBounce)) {
-      for (DrawnBox& box : drawn) {
-        const Vec3 albedo = (1 - materials.ownColor) * materials.boxColor + materials.ownColor * box.color;
-        box.returned = materials.bounce * albedo;
-        returned += kReturnedToBoxes * box.returned.mean() / static_cast<double>(drawn.size());
-      }
-    }
     const double least = leastOcclusion(world.bodies.size());
     if (world.bodies.size() > 1) {
       neighbors = neighborsOf(drawn, faces, leastOnBoxes(world.bodies.size()));
     }
     if (occlusionMap) {
       occlusionMap->place(drawn, surfaces.surfaces(), {.eye = view.eye, .pixelAngle = pixel, .least = least},
-                          hidden, occludedCells);
+                          hidden, occludedCells, into);
     }
   }
   if (stage.picture.antialiasing == Antialiasing::kMultisampled) {
@@ -255,8 +275,55 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
       occludedCells.markAll();
     }
   }
-  block.up = floats(camera.up.normalized(), returned);
-  boxes.place(drawn, faces, cast, neighbors, towards, view.eye);
+  boxes.place({.boxes = drawn,
+               .faces = faces,
+               .shadows = cast,
+               .neighbors = &neighbors,
+               .texels = {},
+               .towardsLight = towards,
+               .eye = view.eye,
+               .inputs = into,
+               .reach = occlusionMap ? OcclusionMap::kReach : 0,
+               .shrunk = occlusionMap ? kShrunk * pixel : 0});
+  findCells();
+}
+
+// Not worth it while the camera moves. Several moments are drawn in layers; llvmpipe draws samples at the
+// border of a scissor's rectangle twice; and a mesh is not where its box is.
+bool Renderer::Parts::mayKeepCells(std::span<const DrawnBox> drawn) const {
+  static_assert(sizeof(FrameBlock) % sizeof(float) == 0);
+  return std::memcmp(&block, &blockBefore, sizeof(block)) == 0 && stage.parts.empty() &&
+         stage.picture.antialiasing != Antialiasing::kMultisampled &&
+         (drawn.empty() || drawn.front().moment == 0);
+}
+
+// The programs that draw surfaces in a cell belong to what it is drawn from, too.
+void Renderer::Parts::findCells() {
+  cells.set();
+  if (inputs) {
+    for (int row = 0; row < PictureCells::kRows; ++row) {
+      for (int column = 0; column < PictureCells::kColumns; ++column) {
+        inputs->addTo(
+            column, row,
+            (shadedCells.isMarked(column, row) ? 1 : 0) + (occludedCells.isMarked(column, row) ? 2 : 0));
+      }
+    }
+    if (kept) {
+      cells = inputs->changedSince(*kept);
+    }
+  }
+  blockBefore = block;
+}
+
+void Renderer::Parts::fill() {
+  const CellInputs* const from = inputs ? &*inputs : nullptr;
+  boxes.fill(from, cells);
+  if (shadows) {
+    shadowBatch->fill(from, cells);
+  }
+  if (occlusionMap) {
+    occlusionMap->fill(from, cells);
+  }
 }
 
 void Renderer::Parts::drawOcclusion() {
@@ -266,6 +333,9 @@ void Renderer::Parts::drawOcclusion() {
   }
   occlusionMap->drawFar();
   occlusionMap->beginNear();
+  if (inputs) {
+    mask.draw(~inputs->around(cells, OcclusionMap::kReach), canvas.drawnWidth(), canvas.drawnHeight());
+  }
   boxes.drawShrunk(kShrunk * pixel);
   if (mayOverlap(stage)) {
     surfaces.drawDepth();
@@ -306,6 +376,7 @@ void Renderer::Parts::drawShaded(std::size_t layer) {
 
 void Renderer::Parts::drawPicture() {
   canvas.begin();
+  mask.draw(~cells, canvas.drawnWidth(), canvas.drawnHeight());
   if (occlusionMap) {
     occlusionMap->bind();
   }
@@ -320,13 +391,27 @@ void Renderer::Parts::drawPicture() {
   }
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(kSunkSlopes, kSunkSteps);
-  surfaces.draw(shadedCells, occludedCells, canvas.drawnWidth(), canvas.drawnHeight());
+  surfaces.draw(shadedCells, occludedCells, cells, canvas.drawnWidth(), canvas.drawnHeight());
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   gl.UseProgram(backgroundProgram);
   gl.BindVertexArray(backgroundArray);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   surfaces.drawGlass();
   canvas.finish();
+}
+
+const Picture& Renderer::Parts::read() {
+  std::vector<PixelRectangle> drawn;
+  forRectangles([&](int column, int row) { return cells[PictureCells::indexOf(column, row)] ? 1 : 0; },
+                [&](int isDrawn, int column, int endColumn, int row, int endRow) {
+                  if (isDrawn != 0) {
+                    drawn.push_back(PictureCells::pixelsOf(column, endColumn, row, endRow,
+                                                           canvas.drawnWidth(), canvas.drawnHeight()));
+                  }
+                });
+  const Picture& picture = canvas.read(drawn);
+  kept = std::move(inputs);
+  return picture;
 }
 
 void Renderer::Parts::drawOver(Picture& picture, const OverlayShapes& shapes) {
@@ -358,15 +443,19 @@ Picture Renderer::draw(const Shot& shot) {
   parts.context->makeCurrent();
   parts.look(shot);
   parts.place(shot.poses, shot.camera);
-  parts.upload();
-  if (parts.occlusionMap) {
-    parts.drawOcclusion();
+  parts.kept.reset();
+  if (parts.cells.any()) {
+    parts.fill();
+    parts.upload();
+    if (parts.occlusionMap) {
+      parts.drawOcclusion();
+    }
+    parts.drawPicture();
   }
-  parts.drawPicture();
   parts.figures.drawSeconds += secondsSince(begun);
 
   const Clock::time_point drawnAt = Clock::now();
-  Picture picture = parts.canvas.read();
+  Picture picture = parts.read();
   parts.figures.readSeconds += secondsSince(drawnAt);
   ++parts.figures.frames;
   return picture;

@@ -220,9 +220,7 @@ FaceShadows shadowsOnFaces(LightPlane& light, std::span<const DrawnBox> boxes,
       shadows.isDark[index] = true;
       continue;
     }
-    const std::array<Vec3, 4> corners = {
-        face.centre - face.across - face.along, face.centre + face.across - face.along,
-        face.centre + face.across + face.along, face.centre - face.across + face.along};
+    const std::array<Vec3, 4> corners = outlineOf(face);
     Vec3 least = light.seen(corners[0]);
     Vec3 most = least;
     for (const Vec3& corner : corners) {

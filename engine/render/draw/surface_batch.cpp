@@ -12,6 +12,8 @@
 namespace careen {
 namespace {
 
+constexpr std::size_t kRecord = 23;  // numbers of a vertex, see surface.vert
+
 using Ends = std::array<double, 4>;  // [m] low and high end of the first coordinate, and of the second
 
 Ends endsOf(const Surface& surface) {
@@ -97,7 +99,8 @@ void SurfaceBatch::replace(std::vector<Surface> surfaces) {
 
 void SurfaceBatch::place(const Vec3& eye) {
   if (eye_ != eye) {
-    vertices_.fill(triangles(surfaces_, tileSize_, eye));
+    records_ = triangles(surfaces_, tileSize_, eye);
+    vertices_.fill(records_);
     eye_ = eye;
   }
 }
@@ -114,42 +117,37 @@ unsigned SurfaceBatch::programOf(bool shadows, bool occlusion) {
   return program;
 }
 
-void SurfaceBatch::draw(const PictureCells& shadows, const PictureCells& occlusion, int width, int height) {
-  using Row = std::array<int, PictureCells::kColumns>;
-  const auto rowOf = [&](int row) {
-    Row needs{};
-    for (int column = 0; column < PictureCells::kColumns; ++column) {
-      needs.at(static_cast<std::size_t>(column)) =
-          (shadows.isMarked(column, row) ? 1 : 0) + (occlusion.isMarked(column, row) ? 2 : 0);
-    }
-    return needs;
-  };
+void SurfaceBatch::add(CellInputs& inputs) const {
+  auto vertices = std::span(records_);
+  for (const Surface& surface : surfaces_) {
+    const std::size_t own = 3 * surface.outline.size() * kRecord;
+    inputs.add(surface.outline, 0, digest(vertices.first(own)));
+    vertices = vertices.subspan(own);
+  }
+}
+
+void SurfaceBatch::draw(const PictureCells& shadows, const PictureCells& occlusion,
+                        const PictureCells::Set& cells, int width, int height) {
+  constexpr int kNotDrawn = -1;
   gl_.BindVertexArray(array_);
   gl_.Enable(GL_SCISSOR_TEST);
-  for (int row = 0; row < PictureCells::kRows;) {
-    const Row needs = rowOf(row);
-    int end = row + 1;
-    while (end < PictureCells::kRows && rowOf(end) == needs) {
-      ++end;
-    }
-    const int bottom = height * row / PictureCells::kRows;
-    const int top = height * end / PictureCells::kRows;
-    for (std::size_t column = 0; column < needs.size();) {
-      std::size_t last = column;
-      while (last < needs.size() && needs.at(last) == needs.at(column)) {
-        ++last;
-      }
-      const int left = width * static_cast<int>(column) / PictureCells::kColumns;
-      const int right = width * static_cast<int>(last) / PictureCells::kColumns;
-      const bool isShaded = needs.at(column) % 2 != 0;
-      (isShaded ? gl_.Enable : gl_.Disable)(GL_BLEND);
-      gl_.UseProgram(programOf(isShaded, needs.at(column) >= 2));
-      gl_.Scissor(left, bottom, right - left, top - bottom);
-      gl_.DrawArrays(GL_TRIANGLES, 0, vertices_.count());
-      column = last;
-    }
-    row = end;
-  }
+  forRectangles(
+      [&](int column, int row) {
+        return !cells[PictureCells::indexOf(column, row)]
+                   ? kNotDrawn
+                   : (shadows.isMarked(column, row) ? 1 : 0) + (occlusion.isMarked(column, row) ? 2 : 0);
+      },
+      [&](int needs, int column, int endColumn, int row, int endRow) {
+        if (needs == kNotDrawn) {
+          return;
+        }
+        const PixelRectangle at = PictureCells::pixelsOf(column, endColumn, row, endRow, width, height);
+        const bool isShaded = needs % 2 != 0;
+        (isShaded ? gl_.Enable : gl_.Disable)(GL_BLEND);
+        gl_.UseProgram(programOf(isShaded, needs >= 2));
+        gl_.Scissor(at.left, at.bottom, at.right - at.left, at.top - at.bottom);
+        gl_.DrawArrays(GL_TRIANGLES, 0, vertices_.count());
+      });
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.Disable(GL_BLEND);
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/draw/picture_cells.h"
+#include "render/draw/cell_inputs.h"
 #include "render/gl/vertex_array.h"
 #include "view/surfaces.h"
 
@@ -23,9 +23,11 @@ class SurfaceBatch {
   /// Others than before: some have moved.
   void replace(std::vector<Surface> surfaces);
   void place(const Vec3& eye);
-  /// Draws to a canvas of this size [px]: where shadows may reach by blending full light and full shadow,
-  /// where boxes occlude with the map of occlusion.
-  void draw(const PictureCells& shadows, const PictureCells& occlusion, int width, int height);
+  void add(CellInputs& inputs) const;
+  /// Draws these cells of a canvas of this size [px]: where shadows may reach by blending full light and full
+  /// shadow, where boxes occlude with the map of occlusion.
+  void draw(const PictureCells& shadows, const PictureCells& occlusion, const PictureCells::Set& cells,
+            int width, int height);
   /// Black, a little farther away, for their depth.
   void drawDepth() const;
   /// Those that the eye is behind, as glass over what is drawn.
@@ -43,6 +45,7 @@ class SurfaceBatch {
   unsigned depthProgram_;
   unsigned glassProgram_ = 0;  // made when first used
   std::vector<Surface> surfaces_;
+  std::vector<float> records_;
   double tileSize_;
   std::optional<Vec3> eye_;
 };
