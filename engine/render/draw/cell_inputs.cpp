@@ -74,26 +74,6 @@ bool CellInputs::isIn(std::size_t piece, const PictureCells::Set& cells) const {
   return std::any_of(own.begin(), own.end(), [&](std::uint16_t cell) { return cells[cell]; });
 }
 
-PictureCells::Set CellInputs::around(const PictureCells::Set& cells, double reach) const {
-  const int aside = static_cast<int>(std::ceil((reach + 1) * perPixel_.x()));
-  const int above = static_cast<int>(std::ceil((reach + 1) * perPixel_.y()));
-  PictureCells::Set all;
-  for (int row = 0; row < PictureCells::kRows; ++row) {
-    for (int column = 0; column < PictureCells::kColumns; ++column) {
-      if (!cells[PictureCells::indexOf(column, row)]) {
-        continue;
-      }
-      for (int y = std::max(row - above, 0); y <= std::min(row + above, PictureCells::kRows - 1); ++y) {
-        for (int x = std::max(column - aside, 0); x <= std::min(column + aside, PictureCells::kColumns - 1);
-             ++x) {
-          all.set(PictureCells::indexOf(x, y));
-        }
-      }
-    }
-  }
-  return all;
-}
-
 std::vector<std::uint32_t> PieceVertices::trianglesIn(std::span<const std::uint32_t> triangles,
                                                       const CellInputs& inputs,
                                                       const PictureCells::Set& cells) const {

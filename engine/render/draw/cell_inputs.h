@@ -29,8 +29,6 @@ class CellInputs {
 
   PictureCells::Set changedSince(const CellInputs& before) const;
   bool isIn(std::size_t piece, const PictureCells::Set& cells) const;
-  /// All cells that are no farther than so many pixels from these.
-  PictureCells::Set around(const PictureCells::Set& cells, double reach) const;
 
  private:
   struct Place {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "view/surfaces.h"
+
 namespace careen {
 namespace {
 
@@ -63,6 +65,41 @@ void PictureCells::append(const View& view, std::span<const Vec3> outline, const
       cells.push_back(static_cast<std::uint16_t>(indexOf(column, row)));
     }
   }
+}
+
+PictureCells::Set PictureCells::filledBy(const View& view, std::vector<Vec3> outline, int width, int height) {
+  for (const double end : {1.0, -1.0}) {  // what is nearer or farther than GL draws is cut off
+    const Vec4 plane = (view.clipFromOffset.row(3) + end * view.clipFromOffset.row(2)).transpose();
+    const Vec3 inward = plane.head<3>();
+    outline = clipped(outline, inward, inward.dot(view.eye) - plane.w());
+  }
+  std::vector<Vec2> corners;  // [px] from the lower left corner
+  double area = 0;
+  for (const Vec3& point : outline) {
+    const Vec4 clip = view.clipFromWorld(point);
+    corners.emplace_back((0.5 + 0.5 * clip.x() / clip.w()) * width,
+                         (0.5 + 0.5 * clip.y() / clip.w()) * height);
+  }
+  const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    area += cross(corners[i], corners[(i + 1) % corners.size()]);
+  }
+  Set filled;
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      const PixelRectangle at = pixelsOf(column, column + 1, row, row + 1, width, height);
+      const Vec2 middle(0.5 * (at.left + at.right), 0.5 * (at.bottom + at.top));
+      const Vec2 half(0.5 * (at.right - at.left) + 1, 0.5 * (at.top - at.bottom) + 1);
+      bool isInside = !corners.empty();
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec2 along = corners[(i + 1) % corners.size()] - corners[i];
+        const double inside = (area > 0 ? 1 : -1) * cross(along, middle - corners[i]);
+        isInside = isInside && inside > std::abs(along.y()) * half.x() + std::abs(along.x()) * half.y();
+      }
+      filled[indexOf(column, row)] = isInside;
+    }
+  }
+  return filled;
 }
 
 void PictureCells::mark(std::span<const Vec3> outline) {

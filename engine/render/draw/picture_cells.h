@@ -31,6 +31,9 @@ class PictureCells {
   static void append(const View& view, std::span<const Vec3> outline, const Vec2& margin,
                      std::vector<std::uint16_t>& cells);
 
+  /// Cells that a convex outline [m] fills, be it a pixel smaller, in a picture of this size [px].
+  static Set filledBy(const View& view, std::vector<Vec3> outline, int width, int height);
+
   explicit PictureCells(View view) : view_(std::move(view)) {}
   /// Marks all cells that a convex outline [m] may reach in the picture.
   void mark(std::span<const Vec3> outline);

@@ -12,7 +12,6 @@
 #include "core/system/resource.h"
 #include "render/draw/box_batch.h"
 #include "render/draw/cell_inputs.h"
-#include "render/draw/cell_mask.h"
 #include "render/draw/frame_block.h"
 #include "render/draw/light_plane.h"
 #include "render/draw/neighbors.h"
@@ -95,7 +94,7 @@ struct Renderer::Parts {
   void drawOcclusion();
   void drawShaded(std::size_t layer);
   void drawPicture();
-  const Picture& read();
+  std::vector<PixelRectangle> pixelsOf(const PictureCells::Set& of) const;
   void drawOver(Picture& picture, const OverlayShapes& shapes);
   void upload() const;
 
@@ -126,11 +125,11 @@ struct Renderer::Parts {
   unsigned backgroundProgram;
   unsigned blockBuffer = 0;
   FrameBlock block;
-  FrameBlock blockBefore;            // of the shot before
+  FrameBlock blockBefore;  // of the shot before
+  Vec3 eyeBefore = Vec3::Zero();
   std::optional<CellInputs> inputs;  // if all but boxes may be as in the shot before
   std::optional<CellInputs> kept;    // of the picture that the canvas has, if known
   PictureCells::Set cells;           // that differ from it, and are drawn
-  CellMask mask;
   DrawFigures figures;
 };
 
@@ -161,8 +160,7 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
                tileSize(extent)),
       backgroundArray(makeVertexArray(gl)),
       backgroundProgram(
-          linkProgram(gl, shaders, {"background.vert", "background.frag", "write_lit.frag", "finish.frag"})),
-      mask(gl, shaders) {
+          linkProgram(gl, shaders, {"background.vert", "background.frag", "write_lit.frag", "finish.frag"})) {
   if (shadows) {
     shadowBatch.emplace(gl, shaders);
   }
@@ -292,8 +290,8 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
 // border of a scissor's rectangle twice; and a mesh is not where its box is.
 bool Renderer::Parts::mayKeepCells(std::span<const DrawnBox> drawn) const {
   static_assert(sizeof(FrameBlock) % sizeof(float) == 0);
-  return std::memcmp(&block, &blockBefore, sizeof(block)) == 0 && stage.parts.empty() &&
-         stage.picture.antialiasing != Antialiasing::kMultisampled &&
+  return std::memcmp(&block, &blockBefore, sizeof(block)) == 0 && view.eye == eyeBefore &&
+         stage.parts.empty() && stage.picture.antialiasing != Antialiasing::kMultisampled &&
          (drawn.empty() || drawn.front().moment == 0);
 }
 
@@ -313,6 +311,7 @@ void Renderer::Parts::findCells() {
     }
   }
   blockBefore = block;
+  eyeBefore = view.eye;
 }
 
 void Renderer::Parts::fill() {
@@ -333,9 +332,6 @@ void Renderer::Parts::drawOcclusion() {
   }
   occlusionMap->drawFar();
   occlusionMap->beginNear();
-  if (inputs) {
-    mask.draw(~inputs->around(cells, OcclusionMap::kReach), canvas.drawnWidth(), canvas.drawnHeight());
-  }
   boxes.drawShrunk(kShrunk * pixel);
   if (mayOverlap(stage)) {
     surfaces.drawDepth();
@@ -376,7 +372,6 @@ void Renderer::Parts::drawShaded(std::size_t layer) {
 
 void Renderer::Parts::drawPicture() {
   canvas.begin();
-  mask.draw(~cells, canvas.drawnWidth(), canvas.drawnHeight());
   if (occlusionMap) {
     occlusionMap->bind();
   }
@@ -395,23 +390,27 @@ void Renderer::Parts::drawPicture() {
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   gl.UseProgram(backgroundProgram);
   gl.BindVertexArray(backgroundArray);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.Enable(GL_SCISSOR_TEST);
+  const PictureCells::Set filled = surfaces.filled(view, canvas.drawnWidth(), canvas.drawnHeight());
+  for (const PixelRectangle& at : pixelsOf(cells & ~filled)) {
+    gl.Scissor(at.left, at.bottom, at.right - at.left, at.top - at.bottom);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  gl.Disable(GL_SCISSOR_TEST);
   surfaces.drawGlass();
   canvas.finish();
 }
 
-const Picture& Renderer::Parts::read() {
-  std::vector<PixelRectangle> drawn;
-  forRectangles([&](int column, int row) { return cells[PictureCells::indexOf(column, row)] ? 1 : 0; },
-                [&](int isDrawn, int column, int endColumn, int row, int endRow) {
-                  if (isDrawn != 0) {
-                    drawn.push_back(PictureCells::pixelsOf(column, endColumn, row, endRow,
+std::vector<PixelRectangle> Renderer::Parts::pixelsOf(const PictureCells::Set& of) const {
+  std::vector<PixelRectangle> parts;
+  forRectangles([&](int column, int row) { return of[PictureCells::indexOf(column, row)] ? 1 : 0; },
+                [&](int isIn, int column, int endColumn, int row, int endRow) {
+                  if (isIn != 0) {
+                    parts.push_back(PictureCells::pixelsOf(column, endColumn, row, endRow,
                                                            canvas.drawnWidth(), canvas.drawnHeight()));
                   }
                 });
-  const Picture& picture = canvas.read(drawn);
-  kept = std::move(inputs);
-  return picture;
+  return parts;
 }
 
 void Renderer::Parts::drawOver(Picture& picture, const OverlayShapes& shapes) {
@@ -455,7 +454,8 @@ Picture Renderer::draw(const Shot& shot) {
   parts.figures.drawSeconds += secondsSince(begun);
 
   const Clock::time_point drawnAt = Clock::now();
-  Picture picture = parts.read();
+  Picture picture = parts.canvas.read(parts.pixelsOf(parts.cells));
+  parts.kept = std::move(parts.inputs);
   parts.figures.readSeconds += secondsSince(drawnAt);
   ++parts.figures.frames;
   return picture;

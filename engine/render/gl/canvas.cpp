@@ -101,13 +101,22 @@ bool convert(std::span<const std::uint8_t> rgba, int scale, const PixelRectangle
     const std::uint8_t* from = &rgba[times * (row * times * columns + left) * 4];
     std::uint8_t* to =
         &picture.rgb[(static_cast<std::size_t>(picture.height) - 1 - row) * picture.rowBytes() + 3 * left];
-    for (std::size_t column = left; column < right; ++column, from += 4 * times, to += 3) {
-      if (times > 1) {
+    if (times > 1) {
+      for (std::size_t column = left; column < right; ++column, from += 4 * times, to += 3) {
         blank = !average(from, times, times * columns, to) || blank;
-      } else {
-        std::copy_n(from, 3, to);
-        blank = blank || from[3] == 0;
       }
+      continue;
+    }
+    // Simple loops, each of which takes several pixels at once.
+    std::uint8_t least = 255;
+    for (std::size_t i = 0; i < right - left; ++i) {
+      least = std::min(least, from[4 * i + 3]);
+    }
+    blank = blank || least == 0;
+    for (std::size_t i = 0; i < right - left; ++i) {
+      to[3 * i] = from[4 * i];
+      to[3 * i + 1] = from[4 * i + 1];
+      to[3 * i + 2] = from[4 * i + 2];
     }
   }
   return blank;
