@@ -70,7 +70,7 @@ std::optional<VideoSettings> videoOf(const FilmOptions& options) {
   if (!options.video) {
     return std::nullopt;
   }
-  VideoSettings video{.path = *options.video, .codec = options.codec};
+  VideoSettings video{.path = *options.video, .codec = options.codec, .alpha = options.picture.alpha};
   video.quality = parsed("--quality", options.quality, videoQualityNamed);
   return video;
 }
@@ -376,9 +376,16 @@ void addRender(const CommandLine& commandLine) {
                   "Labels of every pixel of the frames too, as by 'careen truth': all, or names such as "
                   "depth,instance,flow");
   const CommandOption blur = options->picture.addTo(command);
-  const CommandOption video = command.add(
-      "--video", options->video, "Film to make of the frames, by ffmpeg: .mp4, .mkv, .webm, .webp or .gif");
-  command.add("--codec", options->codec, "h264, vp9 or av1 (default: h264 for .mp4 and .mkv, vp9 for .webm)")
+  command.addFlag(
+      "--alpha", options->picture.alpha,
+      "Boxes and their shadows on nothing, in PNG files with alpha, to be laid over other pictures");
+  const CommandOption video =
+      command.add("--video", options->video,
+                  "Film to make of the frames, by ffmpeg: .mp4, .mkv, .mov, .webm, .webp, .gif or .apng");
+  command
+      .add("--codec", options->codec,
+           "h264, vp9, av1 or prores, or h264-444 or vp9-444, with 10 bits and all colours (default: the "
+           "first of these that its format has; vp9 for .webm, prores for .mov)")
       .needs(video);
   command.add("--quality", options->quality, "The video's: draft, good or best (default: good)").needs(video);
   command.add("--jobs", options->jobs,

@@ -44,6 +44,7 @@ PictureSettings pictureFrom(const nlohmann::json& json) {
   picture.shutter = shutter == "none" ? Shutter() : parseShutter(shutter);
   picture.overlays = OverlaySet::named(json.value("overlays", "none"));
   picture.light = LightParts::named(json.value("light", picture.light.text()));
+  picture.alpha = json.value("alpha", false);
   return picture;
 }
 
@@ -135,6 +136,9 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"frame_count", manifest.frameCount},
       {"frames", rangesText(manifest.frames)},
   };
+  if (picture.alpha) {
+    json["alpha"] = true;
+  }
   if (!manifest.shownAs.empty()) {
     json["shown_as"] = manifest.shownAs;
   }
@@ -169,6 +173,7 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
       compare("shutter", there.picture.shutter.text(), asked.picture.shutter.text()) +
       compare("overlays", there.picture.overlays.text(), asked.picture.overlays.text()) +
       compare("light", there.picture.light.text(), asked.picture.light.text()) +
+      compare("alpha", there.picture.alpha ? "yes" : "no", asked.picture.alpha ? "yes" : "no") +
       compare("frames in all", std::to_string(there.frameCount), std::to_string(asked.frameCount)) +
       compare("program", there.program, asked.program) +
       (there.renderer.empty() || asked.renderer.empty()

@@ -21,6 +21,11 @@ Picture joined(const std::vector<Picture>& pictures) {
     for (const Picture& each : pictures) {
       const std::uint8_t* const begin = each.rgb.data() + row * each.rowBytes();
       all.rgb.insert(all.rgb.end(), begin, begin + each.rowBytes());
+      if (!each.alpha.empty()) {
+        const auto columns = static_cast<std::ptrdiff_t>(each.width);
+        const auto from = each.alpha.begin() + static_cast<std::ptrdiff_t>(row) * columns;
+        all.alpha.insert(all.alpha.end(), from, from + columns);
+      }
     }
   }
   return all;
