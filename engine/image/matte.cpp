@@ -48,12 +48,12 @@ Layer boxLayer(const std::uint8_t* boxes, const std::uint8_t* coverage) {
   Layer layer{.alpha = srgb.linear(coverage[0]) / kFullLight};
   for (std::size_t channel = 0; channel < 3 && layer.alpha > 0; ++channel) {
     const double light = std::min(srgb.linear(boxes[channel]) / layer.alpha, kFullLight);
-    layer.color.at(channel) = srgb.encoded(static_cast<std::uint16_t>(light + 0.5));
+    layer.color.at(channel) = srgb.encoded(static_cast<std::uint16_t>(std::lround(light)));
   }
   return layer;
 }
 
-std::uint8_t rounded(double value) { return static_cast<std::uint8_t>(value + 0.5); }
+std::uint8_t rounded(double value) { return static_cast<std::uint8_t>(std::lround(value)); }
 
 }  // namespace
 

@@ -62,9 +62,9 @@ constexpr std::array<Container, kSuffixes.size()> kContainers = {{{"mp4", kMp4Co
 std::string yuvFilter(const VideoSettings& settings, Samples samples) {
   const std::string alpha = settings.alpha ? "a" : "";
   const bool isHalved = samples == Samples::kYuv420;
-  const std::string toYuv = "scale=out_color_matrix=bt709:out_range=tv,format=yuv" + alpha +
-                            (isHalved ? "420p" : "444p10le") +
-                            ",setparams=color_primaries=bt709:color_trc=iec61966-2-1";
+  std::string toYuv = "scale=out_color_matrix=bt709:out_range=tv,format=yuv" + alpha +
+                      (isHalved ? "420p" : "444p10le") +
+                      ",setparams=color_primaries=bt709:color_trc=iec61966-2-1";
   const int right = settings.width % 2;
   const int bottom = settings.height % 2;
   if (!isHalved || (right == 0 && bottom == 0)) {
