@@ -105,6 +105,7 @@ Films filmsIn(const std::filesystem::path& expected, const std::filesystem::path
                    {"antialiasing", nameOf(one->picture.antialiasing), nameOf(other->picture.antialiasing)},
                    {"shutter", one->picture.shutter.text(), other->picture.shutter.text()},
                    {"overlays", one->picture.overlays.text(), other->picture.overlays.text()},
+                   {"alpha", one->picture.alpha ? "yes" : "no", other->picture.alpha ? "yes" : "no"},
                    {"light", one->picture.light.text(), other->picture.light.text()}};
   }
   return films;

@@ -30,29 +30,19 @@ BoxBatch::Mesh::Mesh(const Gl& gl, std::initializer_list<Attribute> attributes)
 
 BoxBatch::BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const LightShaders& light)
     : gl_(gl),
-      neighbors_(light.neighbors),
-      hasLight_(light.light),
+      shaders_(shaders),
+      light_(light),
       lit_(gl, kFaceAttributes),
       dark_(gl, kFaceAttributes),
       shaded_(gl, kFaceAttributes),
       shadows_(gl, kShadowAttributes) {
-  const char* const openness = light.neighbors ? "neighbors.vert" : "open_everywhere.vert";
-  const auto program = [&](const char* write) {
-    const unsigned linked =
-        linkProgram(gl, shaders, with({"box.vert", openness, "box.frag", write}, light.common));
-    if (light.neighbors) {
-      gl.UseProgram(linked);
-      gl.Uniform1i(gl.GetUniformLocation(linked, "neighbors"), kNeighborUnit);
-    }
-    return linked;
-  };
-  litProgram_ = program("write_lit.frag");
+  litProgram_ = programThat("write_lit.frag");
   depthProgram_ = linkProgram(gl, shaders, {"depth.vert", "black.frag"});
   if (light.light) {
-    darkProgram_ = program("write_dark.frag");
+    darkProgram_ = programThat("write_dark.frag");
   }
   if (light.shadows) {
-    shadedProgram_ = program("write_shaded.frag");
+    shadedProgram_ = programThat("write_shaded.frag");
     shadowProgram_ = linkProgram(gl, shaders, {"shadow.vert", "shadow.frag"});
   }
   if (light.occlusion) {
@@ -69,11 +59,23 @@ BoxBatch::BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const Lig
   }
 }
 
+unsigned BoxBatch::programThat(const char* write) const {
+  const char* const openness = light_.neighbors ? "neighbors.vert" : "open_everywhere.vert";
+  const unsigned linked =
+      linkProgram(gl_, shaders_, with({"box.vert", openness, "box.frag", write}, light_.common));
+  if (light_.neighbors) {
+    gl_.UseProgram(linked);
+    gl_.Uniform1i(gl_.GetUniformLocation(linked, "neighbors"), kNeighborUnit);
+  }
+  return linked;
+}
+
 void BoxBatch::place(PlacedBoxes placed) {
-  texels_ = neighbors_ ? neighborTexels(placed.boxes, *placed.neighbors, placed.eye) : std::vector<float>();
+  texels_ =
+      light_.neighbors ? neighborTexels(placed.boxes, *placed.neighbors, placed.eye) : std::vector<float>();
   placed.texels = texels_;
-  placed.neighbors = neighbors_ ? placed.neighbors : nullptr;
-  placed.towardsLight = hasLight_ ? placed.towardsLight : std::nullopt;
+  placed.neighbors = light_.neighbors ? placed.neighbors : nullptr;
+  placed.towardsLight = light_.light ? placed.towardsLight : std::nullopt;
   FaceRecords records(placed);
   records.add();
   lit_.records = std::move(records.lit);
@@ -103,7 +105,7 @@ void BoxBatch::fill(const CellInputs* inputs, const PictureCells::Set& cells) {
     mesh->indices.fill(indices);
     of = {};
   }
-  if (neighbors_) {
+  if (light_.neighbors) {
     fillNeighbors();
   }
 }
@@ -188,6 +190,16 @@ void BoxBatch::drawDepth(std::size_t layer) const {
     drawOutlines(*mesh, layer);
   }
   gl_.Disable(GL_BLEND);
+}
+
+void BoxBatch::drawCoverage(std::size_t layer) {
+  if (coverageProgram_ == 0) {
+    coverageProgram_ = programThat("write_white.frag");
+  }
+  gl_.UseProgram(coverageProgram_);
+  for (const Mesh* const mesh : {&lit_, &dark_, &shaded_}) {
+    drawTriangles(*mesh, layer);
+  }
 }
 
 void BoxBatch::drawShrunk(double angle) const {

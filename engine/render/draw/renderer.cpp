@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <map>
 #include <utility>
 
 #include "core/error.h"
 #include "core/system/clock.h"
 #include "core/system/resource.h"
 #include "render/draw/box_batch.h"
-#include "render/draw/cell_inputs.h"
+#include "render/draw/changed_cells.h"
 #include "render/draw/frame_block.h"
 #include "render/draw/light_plane.h"
 #include "render/draw/neighbors.h"
@@ -70,6 +70,19 @@ double leastOcclusion(std::size_t boxes) {
 // [1] Likewise, of what keeps light from a box.
 double leastOnBoxes(std::size_t boxes) { return std::min(leastOcclusion(boxes), 0.008); }
 
+// Several moments are drawn in layers; llvmpipe draws samples at the border of a scissor's rectangle twice;
+// and a mesh is not where its box is.
+bool mayBeCompared(const Stage& stage, std::span<const DrawnBox> drawn) {
+  return stage.parts.empty() && stage.picture.antialiasing != Antialiasing::kMultisampled &&
+         (drawn.empty() || drawn.front().moment == 0);
+}
+
+// What is drawn: a picture, or several of the same shot, none of which stays.
+enum class Sheet { kPicture, kMatte };
+
+// Where boxes cast their shadows.
+enum class Cast { kEverywhere, kOnBoxes };
+
 // [px] Thinner springs would be drawn with gaps.
 constexpr double kThinnest = 1.5;
 void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAngle) {
@@ -87,14 +100,20 @@ void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAng
 struct Renderer::Parts {
   Parts(const RunSetup& setup, const RenderOptions& options);
   void look(const Shot& shot);
-  void place(std::span<const Pose> poses, const Camera& from);
-  bool mayKeepCells(std::span<const DrawnBox> drawn) const;
-  void findCells();
+  void place(std::span<const Pose> poses, const Camera& from, Sheet sheet);
   void fill();
   void drawOcclusion();
-  void drawShaded(std::size_t layer);
-  void drawPicture();
-  std::vector<PixelRectangle> pixelsOf(const PictureCells::Set& of) const;
+  void gatherShadows() const;
+  void takeByShadows() const;
+  void castOnSurfaces() const;
+  void drawShaded(std::size_t layer, Cast cast);
+  void drawBoxes(Cast cast);
+  void drawStage(const PictureCells& shaded, const PictureCells& occluded);
+  void drawBlack();
+  void drawBackground(unsigned program) const;
+  void prepare(const Shot& shot, Sheet sheet);
+  template <class Draw>
+  Picture drawn(const Draw& draw);
   void drawOver(Picture& picture, const OverlayShapes& shapes);
   void upload() const;
 
@@ -116,20 +135,17 @@ struct Renderer::Parts {
   Gl gl;
   Canvas canvas;
   std::filesystem::path shaders;
-  std::optional<OverlayBatch> overlays;  // created for the first picture with overlays
+  std::map<std::pair<int, int>, OverlayBatch> overlays;  // by size, created for the first picture of it
   BoxBatch boxes;
   SurfaceBatch surfaces;
   std::optional<ShadowBatch> shadowBatch;
   std::optional<OcclusionMap> occlusionMap;
   unsigned backgroundArray;
   unsigned backgroundProgram;
+  unsigned blackProgram = 0;  // made when first used
   unsigned blockBuffer = 0;
   FrameBlock block;
-  FrameBlock blockBefore;  // of the shot before
-  Vec3 eyeBefore = Vec3::Zero();
-  std::optional<CellInputs> inputs;  // if all but boxes may be as in the shot before
-  std::optional<CellInputs> kept;    // of the picture that the canvas has, if known
-  PictureCells::Set cells;           // that differ from it, and are drawn
+  ChangedCells changed;
   DrawFigures figures;
 };
 
@@ -209,7 +225,7 @@ void Renderer::Parts::look(const Shot& shot) {
   surfaces.place(view.eye);
 }
 
-void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
+void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from, Sheet sheet) {
   std::vector<DrawnBox> drawn = drawnBoxes(world, stage, poses, 0.004 * extent.radius());
   widenSprings(drawn, view.eye, pixelAngle(from, stage.picture.height));
   sortFromEye(drawn, view.eye);
@@ -236,19 +252,19 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
     }
   }
   block.up = floats(camera.up.normalized(), returned);
-  inputs.reset();
-  if (mayKeepCells(drawn)) {
-    inputs.emplace(view, canvas.drawnWidth(), canvas.drawnHeight());
+  changed.begin(view, block, canvas.drawnWidth(), canvas.drawnHeight(),
+                sheet == Sheet::kPicture && mayBeCompared(stage, drawn));
+  CellInputs* const inputs = changed.inputs();
+  if (inputs != nullptr) {
     surfaces.add(*inputs);
   }
-  CellInputs* const into = inputs ? &*inputs : nullptr;
   FaceShadows cast{.pairs = {}, .isDark = std::vector<bool>(faces.size())};
   const Vec3 towards = lighting.light ? Vec3(lighting.light->towards.normalized()) : Vec3(Vec3::UnitZ());
   if (shadows) {
     const ShadowLight light{.towards = towards, .spread = kCurveOfDisc * lighting.light->spread};
     LightPlane plane(light.towards, drawn);
     cast = shadowsOnFaces(plane, drawn, faces, view.eye, light.spread, pixel);
-    shadowBatch->place(drawn, surfaces.surfaces(), light, view.eye, pixel, hidden, shadedCells, into);
+    shadowBatch->place(drawn, surfaces.surfaces(), light, view.eye, pixel, hidden, shadedCells, inputs);
   } else if (lighting.light) {
     std::transform(faces.begin(), faces.end(), cast.isDark.begin(),
                    [&](const DrawnFace& face) { return face.normal.dot(towards) <= 0; });
@@ -261,7 +277,7 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
     }
     if (occlusionMap) {
       occlusionMap->place(drawn, surfaces.surfaces(), {.eye = view.eye, .pixelAngle = pixel, .least = least},
-                          hidden, occludedCells, into);
+                          hidden, occludedCells, inputs);
     }
   }
   if (stage.picture.antialiasing == Antialiasing::kMultisampled) {
@@ -280,48 +296,19 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
                .texels = {},
                .towardsLight = towards,
                .eye = view.eye,
-               .inputs = into,
+               .inputs = inputs,
                .reach = occlusionMap ? OcclusionMap::kReach : 0,
                .shrunk = occlusionMap ? kShrunk * pixel : 0});
-  findCells();
-}
-
-// Not worth it while the camera moves. Several moments are drawn in layers; llvmpipe draws samples at the
-// border of a scissor's rectangle twice; and a mesh is not where its box is.
-bool Renderer::Parts::mayKeepCells(std::span<const DrawnBox> drawn) const {
-  static_assert(sizeof(FrameBlock) % sizeof(float) == 0);
-  return std::memcmp(&block, &blockBefore, sizeof(block)) == 0 && view.eye == eyeBefore &&
-         stage.parts.empty() && stage.picture.antialiasing != Antialiasing::kMultisampled &&
-         (drawn.empty() || drawn.front().moment == 0);
-}
-
-// The programs that draw surfaces in a cell belong to what it is drawn from, too.
-void Renderer::Parts::findCells() {
-  cells.set();
-  if (inputs) {
-    for (int row = 0; row < PictureCells::kRows; ++row) {
-      for (int column = 0; column < PictureCells::kColumns; ++column) {
-        inputs->addTo(
-            column, row,
-            (shadedCells.isMarked(column, row) ? 1 : 0) + (occludedCells.isMarked(column, row) ? 2 : 0));
-      }
-    }
-    if (kept) {
-      cells = inputs->changedSince(*kept);
-    }
-  }
-  blockBefore = block;
-  eyeBefore = view.eye;
+  changed.find(shadedCells, occludedCells);
 }
 
 void Renderer::Parts::fill() {
-  const CellInputs* const from = inputs ? &*inputs : nullptr;
-  boxes.fill(from, cells);
+  boxes.fill(changed.inputs(), changed.cells());
   if (shadows) {
-    shadowBatch->fill(from, cells);
+    shadowBatch->fill(changed.inputs(), changed.cells());
   }
   if (occlusionMap) {
-    occlusionMap->fill(from, cells);
+    occlusionMap->fill(changed.inputs(), changed.cells());
   }
 }
 
@@ -343,81 +330,136 @@ void Renderer::Parts::drawOcclusion() {
 // The part of the light that shadows keep off is gathered in the picture itself, which is black before, for
 // every sample of a pixel, each of what the others leave; then it takes the colours in full light and in full
 // shadow by that part.
-void Renderer::Parts::drawShaded(std::size_t layer) {
-  const bool isLast = layer + 1 == boxes.layers();
-  if (boxes.hasShaded()) {
-    boxes.drawShadedDepth(layer);
-  }
-  if (isLast && mayOverlap(stage)) {
-    surfaces.drawDepth();
-  }
+void Renderer::Parts::gatherShadows() const {
   gl.Enable(GL_BLEND);
   gl.BlendFuncSeparate(GL_ONE_MINUS_DST_COLOR, GL_ONE, GL_ONE, GL_ONE);
   gl.DepthMask(GL_FALSE);
-  boxes.drawShadows(layer);
-  if (isLast) {
-    gl.Disable(GL_CULL_FACE);
-    gl.Enable(GL_POLYGON_OFFSET_FILL);
-    gl.PolygonOffset(kSunkSlopes, kSunkSteps);
-    shadowBatch->draw();
-    gl.Disable(GL_POLYGON_OFFSET_FILL);
-    gl.Enable(GL_CULL_FACE);
-  }
+}
+
+void Renderer::Parts::takeByShadows() const {
   gl.DepthMask(GL_TRUE);
   gl.BlendFuncSeparate(GL_ONE_MINUS_DST_COLOR, GL_SRC1_COLOR, GL_ONE, GL_ZERO);
+}
+
+void Renderer::Parts::castOnSurfaces() const {
+  gl.Disable(GL_CULL_FACE);
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
+  shadowBatch->draw();
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+  gl.Enable(GL_CULL_FACE);
+}
+
+void Renderer::Parts::drawShaded(std::size_t layer, Cast cast) {
+  const bool castsOnSurfaces = layer + 1 == boxes.layers() && cast == Cast::kEverywhere;
+  if (boxes.hasShaded()) {
+    boxes.drawShadedDepth(layer);
+  }
+  if (castsOnSurfaces && mayOverlap(stage)) {
+    surfaces.drawDepth();
+  }
+  gatherShadows();
+  boxes.drawShadows(layer);
+  if (castsOnSurfaces) {
+    castOnSurfaces();
+  }
+  takeByShadows();
   boxes.drawShaded(layer);
   gl.Disable(GL_BLEND);
   ++figures.shadowPasses;
 }
 
-void Renderer::Parts::drawPicture() {
-  canvas.begin();
-  if (occlusionMap) {
-    occlusionMap->bind();
-  }
+void Renderer::Parts::drawBoxes(Cast cast) {
   for (std::size_t layer = 0; layer < boxes.layers(); ++layer) {
     boxes.drawUnshaded(layer);
     if (shadows) {
-      drawShaded(layer);
+      drawShaded(layer, cast);
     }
     if (layer + 1 < boxes.layers()) {
       boxes.drawDepth(layer);
     }
   }
-  gl.Enable(GL_POLYGON_OFFSET_FILL);
-  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
-  surfaces.draw(shadedCells, occludedCells, cells, canvas.drawnWidth(), canvas.drawnHeight());
-  gl.Disable(GL_POLYGON_OFFSET_FILL);
-  gl.UseProgram(backgroundProgram);
+}
+
+void Renderer::Parts::drawBackground(unsigned program) const {
+  const int width = canvas.drawnWidth();
+  const int height = canvas.drawnHeight();
+  gl.UseProgram(program);
   gl.BindVertexArray(backgroundArray);
   gl.Enable(GL_SCISSOR_TEST);
-  const PictureCells::Set filled = surfaces.filled(view, canvas.drawnWidth(), canvas.drawnHeight());
-  for (const PixelRectangle& at : pixelsOf(cells & ~filled)) {
+  for (const PixelRectangle& at :
+       pixelsOf(changed.cells() & ~surfaces.filled(view, width, height), width, height)) {
     gl.Scissor(at.left, at.bottom, at.right - at.left, at.top - at.bottom);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
   }
   gl.Disable(GL_SCISSOR_TEST);
-  surfaces.drawGlass();
-  canvas.finish();
 }
 
-std::vector<PixelRectangle> Renderer::Parts::pixelsOf(const PictureCells::Set& of) const {
-  std::vector<PixelRectangle> parts;
-  forRectangles([&](int column, int row) { return of[PictureCells::indexOf(column, row)] ? 1 : 0; },
-                [&](int isIn, int column, int endColumn, int row, int endRow) {
-                  if (isIn != 0) {
-                    parts.push_back(PictureCells::pixelsOf(column, endColumn, row, endRow,
-                                                           canvas.drawnWidth(), canvas.drawnHeight()));
-                  }
-                });
-  return parts;
+void Renderer::Parts::drawStage(const PictureCells& shaded, const PictureCells& occluded) {
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
+  surfaces.draw(shaded, occluded, changed.cells(), canvas.drawnWidth(), canvas.drawnHeight());
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+  drawBackground(backgroundProgram);
+  surfaces.drawGlass();
+}
+
+// Surfaces that hide boxes, and all that is behind.
+void Renderer::Parts::drawBlack() {
+  if (blackProgram == 0) {
+    blackProgram = linkProgram(gl, shaders, {"background.vert", "background.frag", "write_black.frag"});
+  }
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
+  surfaces.drawBlack();
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+  drawBackground(blackProgram);
+}
+
+// All but the drawing of the picture itself.
+void Renderer::Parts::prepare(const Shot& shot, Sheet sheet) {
+  const std::size_t poses = shot.poses.size();
+  const std::size_t bodies = world.bodies.size();
+  if (bodies == 0 ? poses != 0 : poses == 0 || poses % bodies != 0) {
+    throw InputError("drawing: found " + std::to_string(poses) + " poses, expected one for each of " +
+                     std::to_string(bodies) + " boxes, or so many for each of several moments");
+  }
+  const Clock::time_point begun = Clock::now();
+  context->makeCurrent();
+  look(shot);
+  place(shot.poses, shot.camera, sheet);
+  changed.beginDrawing();
+  if (changed.cells().any()) {
+    fill();
+    upload();
+    if (occlusionMap) {
+      drawOcclusion();
+    }
+  }
+  figures.drawSeconds += secondsSince(begun);
+}
+
+template <class Draw>
+Picture Renderer::Parts::drawn(const Draw& draw) {
+  const Clock::time_point begun = Clock::now();
+  if (changed.cells().any()) {
+    canvas.begin();
+    if (occlusionMap) {
+      occlusionMap->bind();
+    }
+    draw();
+    canvas.finish();
+  }
+  figures.drawSeconds += secondsSince(begun);
+  const Clock::time_point drawnAt = Clock::now();
+  Picture picture = canvas.read(pixelsOf(changed.cells(), canvas.drawnWidth(), canvas.drawnHeight()));
+  figures.readSeconds += secondsSince(drawnAt);
+  return picture;
 }
 
 void Renderer::Parts::drawOver(Picture& picture, const OverlayShapes& shapes) {
-  if (!overlays) {
-    overlays.emplace(gl, shaders, picture.width, picture.height);
-  }
-  overlays->drawOver(picture, shapes);
+  overlays.try_emplace({picture.width, picture.height}, gl, shaders, picture.width, picture.height)
+      .first->second.drawOver(picture, shapes);
   ++figures.overlayPasses;
 }
 
@@ -432,33 +474,46 @@ Picture Renderer::draw(std::span<const Pose> poses) {
 
 Picture Renderer::draw(const Shot& shot) {
   Parts& parts = *parts_;
-  const std::size_t poses = shot.poses.size();
-  const std::size_t boxes = parts.world.bodies.size();
-  if (boxes == 0 ? poses != 0 : poses == 0 || poses % boxes != 0) {
-    throw InputError("drawing: found " + std::to_string(poses) + " poses, expected one for each of " +
-                     std::to_string(boxes) + " boxes, or so many for each of several moments");
-  }
-  const Clock::time_point begun = Clock::now();
-  parts.context->makeCurrent();
-  parts.look(shot);
-  parts.place(shot.poses, shot.camera);
-  parts.kept.reset();
-  if (parts.cells.any()) {
-    parts.fill();
-    parts.upload();
-    if (parts.occlusionMap) {
-      parts.drawOcclusion();
-    }
-    parts.drawPicture();
-  }
-  parts.figures.drawSeconds += secondsSince(begun);
-
-  const Clock::time_point drawnAt = Clock::now();
-  Picture picture = parts.canvas.read(parts.pixelsOf(parts.cells));
-  parts.kept = std::move(parts.inputs);
-  parts.figures.readSeconds += secondsSince(drawnAt);
+  parts.prepare(shot, Sheet::kPicture);
+  Picture picture = parts.drawn([&] {
+    parts.drawBoxes(Cast::kEverywhere);
+    parts.drawStage(parts.shadedCells, parts.occludedCells);
+  });
+  parts.changed.endDrawing();
+  refuseBlack(picture, parts.gl.description);
   ++parts.figures.frames;
   return picture;
+}
+
+MatteParts Renderer::drawMatte(const Shot& shot) {
+  Parts& parts = *parts_;
+  parts.prepare(shot, Sheet::kMatte);
+  MatteParts matte;
+  matte.boxes = parts.drawn([&] {
+    parts.drawBoxes(Cast::kOnBoxes);
+    parts.drawBlack();
+  });
+  matte.coverage = parts.drawn([&] {
+    for (std::size_t layer = 0; layer < parts.boxes.layers(); ++layer) {
+      parts.boxes.drawCoverage(layer);
+    }
+    parts.drawBlack();
+  });
+  matte.stage = parts.drawn([&] {
+    if (parts.shadows) {
+      if (mayOverlap(parts.stage)) {
+        parts.surfaces.drawDepth();
+      }
+      parts.gatherShadows();
+      parts.castOnSurfaces();
+      parts.takeByShadows();
+    }
+    parts.drawStage(parts.shadedCells, parts.occludedCells);
+  });
+  const PictureCells nowhere(parts.view);
+  matte.emptyStage = parts.drawn([&] { parts.drawStage(nowhere, nowhere); });
+  ++parts.figures.frames;
+  return matte;
 }
 
 View Renderer::view(const Camera& camera) const { return viewOf(camera, parts_->extent, parts_->aspect); }

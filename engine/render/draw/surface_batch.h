@@ -30,6 +30,8 @@ class SurfaceBatch {
   /// shadow, where boxes occlude with the map of occlusion.
   void draw(const PictureCells& shadows, const PictureCells& occlusion, const PictureCells::Set& cells,
             int width, int height);
+  /// Black, but for what lies before them.
+  void drawBlack();
   /// Black, a little farther away, for their depth.
   void drawDepth() const;
   /// Those that the eye is behind, as glass over what is drawn.
@@ -52,7 +54,8 @@ class SurfaceBatch {
   std::vector<std::string> light_;
   std::array<unsigned, 24> programs_{};  // made when first used
   unsigned depthProgram_;
-  unsigned glassProgram_ = 0;  // made when first used
+  unsigned blackProgram_ = 0;  // made when first used
+  unsigned glassProgram_ = 0;  // likewise
   std::vector<Surface> surfaces_;
   std::vector<Group> groups_;
   std::vector<float> records_;

@@ -83,14 +83,21 @@ bool average(const std::uint8_t* from, std::size_t times, std::size_t rowPixels,
   return drawn;
 }
 
+[[noreturn]] void failToDraw(const char* how, const std::string& renderer) {
+  throw MachineError(std::string("the frame came out ") + how + ": " + renderer +
+                     " does not draw what it should; another may: --list-rendering-backends, apt install " +
+                     std::string(drawingPackages()));
+}
+
 Picture blackPicture(int width, int height) {
   Picture picture{.width = width, .height = height, .rgb = {}};
   picture.rgb.resize(picture.rowBytes() * static_cast<std::size_t>(height));
   return picture;
 }
 
-// These pixels of a picture; whether some were never drawn. See pictureFromDrawing.
-bool convert(std::span<const std::uint8_t> rgba, int scale, const PixelRectangle& pixels, Picture& picture) {
+// These pixels of a picture; see pictureFromDrawing.
+void convert(std::span<const std::uint8_t> rgba, int scale, const PixelRectangle& pixels, Picture& picture,
+             const std::string& renderer) {
   const auto columns = static_cast<std::size_t>(picture.width);
   const auto times = static_cast<std::size_t>(scale);
   const auto left = static_cast<std::size_t>(pixels.left);
@@ -119,15 +126,8 @@ bool convert(std::span<const std::uint8_t> rgba, int scale, const PixelRectangle
       to[3 * i + 2] = from[4 * i + 2];
     }
   }
-  return blank;
-}
-
-void refuseBlank(const Picture& picture, bool blank, const std::string& renderer) {
-  if (blank || std::all_of(picture.rgb.begin(), picture.rgb.end(), [](std::uint8_t x) { return x == 0; })) {
-    throw MachineError(std::string("the frame came out ") + (blank ? "with pixels left blank" : "black") +
-                       ": " + renderer +
-                       " does not draw what it should; another may: --list-rendering-backends, apt install " +
-                       std::string(drawingPackages()));
+  if (blank) {
+    failToDraw("with pixels left blank", renderer);
   }
 }
 
@@ -183,7 +183,6 @@ const Picture& Canvas::read(std::span<const PixelRectangle> drawn) {
   }
   gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
   checkGl(gl_, "drawing a frame");
-  bool blank = false;
   for (const PixelRectangle& part : drawn) {
     // Pixels of edges blend into those beside them.
     const PixelRectangle near = !wantsEdges() ? part
@@ -195,24 +194,27 @@ const Picture& Canvas::read(std::span<const PixelRectangle> drawn) {
       blendEdges(rgba_, width, height, near, blended_);
     }
     const auto outward = [&](int end) { return (end + scale_ - 1) / scale_; };
-    blank = convert(wantsEdges() ? blended_ : rgba_, scale_,
-                    {.left = near.left / scale_,
-                     .bottom = near.bottom / scale_,
-                     .right = outward(near.right),
-                     .top = outward(near.top)},
-                    picture_) ||
-            blank;
+    convert(wantsEdges() ? blended_ : rgba_, scale_,
+            {.left = near.left / scale_,
+             .bottom = near.bottom / scale_,
+             .right = outward(near.right),
+             .top = outward(near.top)},
+            picture_, gl_.description);
   }
-  refuseBlank(picture_, blank, gl_.description);
   return picture_;
 }
 
 Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int height, int scale,
                            const std::string& renderer) {
   Picture picture = blackPicture(width, height);
-  const bool blank = convert(rgba, scale, {.left = 0, .bottom = 0, .right = width, .top = height}, picture);
-  refuseBlank(picture, blank, renderer);
+  convert(rgba, scale, {.left = 0, .bottom = 0, .right = width, .top = height}, picture, renderer);
   return picture;
+}
+
+void refuseBlack(const Picture& picture, const std::string& renderer) {
+  if (std::all_of(picture.rgb.begin(), picture.rgb.end(), [](std::uint8_t value) { return value == 0; })) {
+    failToDraw("black", renderer);
+  }
 }
 
 }  // namespace careen

@@ -24,7 +24,7 @@ class Canvas {
   /// Waits until drawing is complete.
   void finish() const;
   /// Antialiases and reads back these parts of the frame; the others are as they were read before.
-  /// MachineError if it is blank.
+  /// MachineError if a pixel is blank.
   const Picture& read(std::span<const PixelRectangle> drawn);
 
   /// [px] of what is drawn, before it is averaged to the picture.
@@ -48,9 +48,11 @@ class Canvas {
 };
 
 /// Converts RGBA rows, bottom row first, to a picture, averaging each `scale` x `scale` pixels in linear
-/// light. Drawn pixels have an alpha above 0: MachineError, naming `renderer`, if a pixel was never drawn or
-/// all are black.
+/// light. Drawn pixels have an alpha above 0: MachineError, naming `renderer`, if a pixel was never drawn.
 Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int height, int scale,
                            const std::string& renderer);
+
+/// MachineError, likewise, if all pixels are black.
+void refuseBlack(const Picture& picture, const std::string& renderer);
 
 }  // namespace careen
