@@ -102,12 +102,23 @@ PictureCells::Set PictureCells::filledBy(const View& view, std::vector<Vec3> out
   return filled;
 }
 
-void PictureCells::mark(std::span<const Vec3> outline) {
+void PictureCells::mark(const std::vector<Vec3>& outline) {
   std::vector<std::uint16_t> cells;
   append(view_, outline, Vec2(kMargin, kMargin), cells);
   for (const std::uint16_t cell : cells) {
     marked_.set(cell);
   }
+}
+
+std::vector<PixelRectangle> pixelsOf(const PictureCells::Set& cells, int width, int height) {
+  std::vector<PixelRectangle> parts;
+  forRectangles([&](int column, int row) { return cells[PictureCells::indexOf(column, row)] ? 1 : 0; },
+                [&](int isIn, int column, int endColumn, int row, int endRow) {
+                  if (isIn != 0) {
+                    parts.push_back(PictureCells::pixelsOf(column, endColumn, row, endRow, width, height));
+                  }
+                });
+  return parts;
 }
 
 }  // namespace careen

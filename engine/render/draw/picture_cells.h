@@ -36,7 +36,7 @@ class PictureCells {
 
   explicit PictureCells(View view) : view_(std::move(view)) {}
   /// Marks all cells that a convex outline [m] may reach in the picture.
-  void mark(std::span<const Vec3> outline);
+  void mark(const std::vector<Vec3>& outline);
   void markAll() { marked_.set(); }
   bool isMarked(int column, int row) const { return marked_[indexOf(column, row)]; }
 
@@ -75,5 +75,8 @@ void forRectangles(const ValueOf& valueOf, const Do& doWith) {
     row = endRow;
   }
 }
+
+/// [px] These cells of a picture of this size.
+std::vector<PixelRectangle> pixelsOf(const PictureCells::Set& cells, int width, int height);
 
 }  // namespace careen
