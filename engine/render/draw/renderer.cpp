@@ -13,6 +13,7 @@
 #include "render/draw/box_batch.h"
 #include "render/draw/changed_cells.h"
 #include "render/draw/frame_block.h"
+#include "render/draw/kept_lists.h"
 #include "render/draw/light_plane.h"
 #include "render/draw/neighbors.h"
 #include "render/draw/occlusion_map.h"
@@ -145,6 +146,7 @@ struct Renderer::Parts {
   unsigned blackProgram = 0;  // made when first used
   unsigned blockBuffer = 0;
   FrameBlock block;
+  KeptLists lists;
   ChangedCells changed;
   DrawFigures figures;
 };
@@ -258,12 +260,13 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from, She
   if (inputs != nullptr) {
     surfaces.add(*inputs);
   }
+  lists.begin(drawn, faces, view.eye, pixel);
   FaceShadows cast{.pairs = {}, .isDark = std::vector<bool>(faces.size())};
   const Vec3 towards = lighting.light ? Vec3(lighting.light->towards.normalized()) : Vec3(Vec3::UnitZ());
   if (shadows) {
     const ShadowLight light{.towards = towards, .spread = kCurveOfDisc * lighting.light->spread};
     LightPlane plane(light.towards, drawn);
-    cast = shadowsOnFaces(plane, drawn, faces, view.eye, light.spread, pixel);
+    cast = shadowsOnFaces(plane, drawn, faces, view.eye, light.spread, pixel, &lists);
     shadowBatch->place(drawn, surfaces.surfaces(), light, view.eye, pixel, hidden, shadedCells, inputs);
   } else if (lighting.light) {
     std::transform(faces.begin(), faces.end(), cast.isDark.begin(),
@@ -273,7 +276,7 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from, She
   if (occlusion) {
     const double least = leastOcclusion(world.bodies.size());
     if (world.bodies.size() > 1) {
-      neighbors = neighborsOf(drawn, faces, leastOnBoxes(world.bodies.size()));
+      neighbors = neighborsOf(drawn, faces, leastOnBoxes(world.bodies.size()), &lists);
     }
     if (occlusionMap) {
       occlusionMap->place(drawn, surfaces.surfaces(), {.eye = view.eye, .pixelAngle = pixel, .least = least},
@@ -299,6 +302,7 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from, She
                .inputs = inputs,
                .reach = occlusionMap ? OcclusionMap::kReach : 0,
                .shrunk = occlusionMap ? kShrunk * pixel : 0});
+  lists.keep(std::move(cast), std::move(neighbors));
   changed.find(shadedCells, occludedCells);
 }
 

@@ -138,14 +138,14 @@ Canvas::Canvas(const Gl& gl, int width, int height, Antialiasing antialiasing)
       width_(width),
       height_(height),
       scale_(antialiasing == Antialiasing::kSupersampled ? 2 : 1),
-      antialiasing_(antialiasing),
-      picture_(blackPicture(width, height)) {
+      antialiasing_(antialiasing) {
   checkSize(gl, width, height, scale_);
   const int samples = samplesOf(gl, antialiasing);
   drawn_ = makeFramebuffer(gl, samples, true, scale_ * width, scale_ * height);
   resolved_ = samples > 0 ? makeFramebuffer(gl, 0, false, width, height) : drawn_;
   rgba_.resize(static_cast<std::size_t>(scale_ * width) * static_cast<std::size_t>(scale_ * height) * 4);
   blended_.resize(wantsEdges() ? rgba_.size() : 0);
+  picture_ = blackPicture(width, height);
 }
 
 bool Canvas::wantsEdges() const {
