@@ -12,7 +12,7 @@ constexpr double kPixelAngle = 0.001;
 constexpr double kSpread = 0.03;
 constexpr double kLeastSeen = 0.004;
 const Vec3 kEyeOfLists(0, -12, 6);
-const Vec3 kTowards = Vec3(-0.5, -0.4, 1).normalized();
+const Vec3 kTowardsOfLists = Vec3(-0.5, -0.4, 1).normalized();
 
 DrawnBox randomBox(std::mt19937& random, std::size_t shown) {
   std::uniform_real_distribution<double> place(-3, 3);
@@ -41,7 +41,7 @@ class Shots {
     sortFromEye(boxes, eye);
     const std::vector<DrawnFace> faces = facesTowards(boxes, eye, kPixelAngle);
     lists_.begin(boxes, faces, eye, kPixelAngle);
-    LightPlane plane(kTowards, boxes);
+    LightPlane plane(kTowardsOfLists, boxes);
     const auto shadowsWith = [&](const KeptLists* kept) {
       return shadowsOnFaces(plane, boxes, faces, eye, kSpread, kPixelAngle, kept);
     };
