@@ -27,14 +27,14 @@ std::uint64_t digest(std::span<const float> numbers, std::uint64_t before) {
 }
 
 CellInputs::CellInputs(View view, int width, int height)
-    : view_(std::move(view)),
-      perPixel_(PictureCells::kColumns / static_cast<double>(width),
-                PictureCells::kRows / static_cast<double>(height)) {}
+    : view_(std::move(view)), width_(width), height_(height) {}
 
 std::size_t CellInputs::add(std::span<const Vec3> outline, double reach, std::uint64_t records) {
   const std::size_t begin = cells_.size();
   // Cells end at whole pixels.
-  PictureCells::append(view_, outline, (reach + 1) * perPixel_, cells_);
+  const Vec2 margin((reach + 1) * PictureCells::kColumns / width_,
+                    (reach + 1) * PictureCells::kRows / height_);
+  PictureCells::append(view_, outline, margin, cells_);
   pieces_.push_back({.begin = begin, .end = cells_.size()});
   for (const std::uint16_t cell : cellsOf(pieces_.back())) {
     inputs_.at(cell) = mixed(inputs_.at(cell), records);

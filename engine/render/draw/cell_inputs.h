@@ -40,7 +40,8 @@ class CellInputs {
   }
 
   View view_;
-  Vec2 perPixel_;  // cells
+  int width_;
+  int height_;
   std::array<std::uint64_t, PictureCells::kCount> inputs_{};
   std::vector<std::uint16_t> cells_;
   std::vector<Place> pieces_;  // in cells_

@@ -20,6 +20,10 @@ std::vector<Vec3> shadowOutline(const DrawnBox& box, const Surface& surface, con
 /// box's centre than `within` [m]; as shadowOutline.
 std::vector<Vec3> occlusionOutline(const DrawnBox& box, const Surface& surface, double least, double within);
 
+/// The part of a surface where so much of what it sees is covered by what is as large as the box, but at its
+/// centre; as shadowOutline.
+std::vector<Vec3> farOcclusionOutline(const DrawnBox& box, const Surface& surface, double least);
+
 /// Vertices of outlines, each with what belongs to all its vertices, and triangles between them.
 struct Decals {
   std::vector<float> vertices;

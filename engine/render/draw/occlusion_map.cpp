@@ -137,9 +137,10 @@ void OcclusionMap::place(std::span<const DrawnBox> boxes, std::span<const Surfac
       if (outline.empty() || hidden.hide(outline)) {
         continue;
       }
-      cells.mark(outline);
       const Part part = partOf(box, shares[i], view);
-      const auto append = [&](const std::vector<Vec3>& within, int kind) {
+      cells.mark(outline);
+      // An outline is drawn, but only in `reached` it changes anything.
+      const auto append = [&](const std::vector<Vec3>& within, const std::vector<Vec3>& reached, int kind) {
         const std::size_t begun = decals_.vertices.size();
         decals_.triangles.swap(triangles_.at(static_cast<std::size_t>(kind)));
         appendDecal(decals_, within, box, surface, view.eye, part);
@@ -147,18 +148,21 @@ void OcclusionMap::place(std::span<const DrawnBox> boxes, std::span<const Surfac
         if (inputs != nullptr) {
           const std::span<const float> vertices = std::span(decals_.vertices).subspan(begun);
           const std::uint64_t records = digest(vertices, static_cast<std::uint64_t>(kind));
-          decals_.pieces.add(inputs->add(within, kind == kFarPart ? kFarReach : kReach, records),
+          decals_.pieces.add(inputs->add(reached, kind == kFarPart ? kFarReach : kReach, records),
                              decals_.count);
         }
       };
       if (part.share < 1) {
-        append(outline, kCopyPart);
+        append(outline, outline, kCopyPart);
         continue;
       }
-      append(outline, kFarPart);
+      const std::vector<Vec3> far = farOcclusionOutline(box, surface, view.least);
+      if (!far.empty()) {
+        append(outline, far, kFarPart);
+      }
       const std::vector<Vec3> near = occlusionOutline(box, surface, view.least, std::sqrt(part.to));
       if (!near.empty()) {
-        append(near, kNearPart);
+        append(near, near, kNearPart);
       }
     }
   }
