@@ -7,8 +7,11 @@
 
 #include "core/math/pose.h"
 #include "stage/run_setup.h"
+#include "view/materials.h"
 
 namespace careen {
+
+inline constexpr double kReturnedToBoxes = 1.5;  ///< boxes are lit from more sides than surfaces
 
 /// One box to draw. Boxes of a run have marks on their faces; springs and boxes that are parts of a body have
 /// none.
@@ -28,6 +31,12 @@ struct DrawnBox {
 /// previous one.
 std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::span<const Pose> poses,
                                  double springThickness);
+
+/// Makes springs as thick as 1.5 pixels at least, or there would be gaps; `pixelAngle` [rad].
+void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAngle);
+
+/// Sets what comes back from boxes; the mean of what comes back from one to others.
+double returnLight(std::vector<DrawnBox>& boxes, const Materials& materials);
 
 /// Whether any is shown several times.
 bool haveCopies(std::span<const DrawnBox> boxes);

@@ -11,7 +11,6 @@ namespace careen {
 
 inline constexpr std::size_t kMostNear = 12;
 inline constexpr std::size_t kMostFar = 32;
-inline constexpr double kReturnedToBoxes = 1.5;  ///< boxes are lit from more sides than surfaces
 
 /// Boxes that keep ambient light from faces.
 struct FaceNeighbors {

@@ -35,9 +35,6 @@ namespace {
 
 constexpr double kShrunk = 3;  // [px] boxes in the map of occlusion, whose pixels reach so far
 
-// [1] Width of the curve of shadow.frag that has the variance of a disc, of that disc: sqrt(5) / 2.
-constexpr double kCurveOfDisc = 1.118033988749895;
-
 // Floors and walls are behind by this part of what their depth changes in a pixel, and by so many steps of
 // its precision: a box that has sunk into one by less hides it, and what it has drawn is not taken for
 // shadow.
@@ -63,14 +60,6 @@ std::vector<std::string> lightShaders(const Lighting& lighting) {
 // Walls that are no room's may hide each other.
 bool mayOverlap(const Stage& stage) { return stage.planes.size() + (stage.room ? 1 : 0) > 1; }
 
-// [1] The more boxes there are, the more they hide each other, and the less each has to be drawn far away.
-double leastOcclusion(std::size_t boxes) {
-  return std::clamp(0.004 * std::sqrt(static_cast<double>(boxes) / 100), 0.004, 0.022);
-}
-
-// [1] Likewise, of what keeps light from a box.
-double leastOnBoxes(std::size_t boxes) { return std::min(leastOcclusion(boxes), 0.008); }
-
 // Several moments are drawn in layers; llvmpipe draws samples at the border of a scissor's rectangle twice;
 // and a mesh is not where its box is.
 bool mayBeCompared(const Stage& stage, std::span<const DrawnBox> drawn) {
@@ -83,18 +72,6 @@ enum class Sheet { kPicture, kMatte };
 
 // Where boxes cast their shadows.
 enum class Cast { kEverywhere, kOnBoxes };
-
-// [px] Thinner springs would be drawn with gaps.
-constexpr double kThinnest = 1.5;
-void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAngle) {
-  for (DrawnBox& box : boxes) {
-    if (!box.marked) {
-      const double least = 0.5 * kThinnest * pixelAngle * (box.pose.position - eye).norm();
-      box.halfExtents.y() = std::max(box.halfExtents.y(), least);
-      box.halfExtents.z() = std::max(box.halfExtents.z(), least);
-    }
-  }
-}
 
 }  // namespace
 
@@ -191,25 +168,13 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
   gl.DepthFunc(GL_LEQUAL);
   gl.Enable(GL_CULL_FACE);
 
-  block.sky = floats(lighting.sky);
-  block.ground = floats(lighting.ground);
-  block.backgroundTop = floats(lighting.backgroundTop);
-  block.backgroundBottom = floats(lighting.backgroundBottom);
-  block.finish = floats(Vec3(materials.shoulder, canvas.wantsEdges() ? 1 : 0, materials.dither),
-                        leastOnBoxes(world.bodies.size()));
-  block.boxLook =
-      floats(Vec3(materials.boxRoughness, materials.marks ? 1 : 0, materials.ownColor), materials.edgeLine);
-  block.material = floats(materials.boxColor);
-  block.lines = floats(materials.lineColor, materials.ownJoints ? 1 : 0);
-  block.surfaceLook = floats(Vec3(materials.tileRoughness, materials.wallRoughness, materials.tileContrast),
-                             materials.joints);
-  block.occlusion = floats(Vec3(stage.picture.light.has(LightPart::kOcclusion) ? materials.corners : 0,
-                                leastOcclusion(world.bodies.size()), 1.0 / canvas.drawnWidth()),
-                           1.0 / canvas.drawnHeight());
-  if (lighting.light) {
-    block.towardsLight = floats(lighting.light->towards.normalized(), kCurveOfDisc * lighting.light->spread);
-    block.lightColor = floats(lighting.light->color);
-  }
+  block = blockOf({.lighting = lighting,
+                   .materials = materials,
+                   .parts = stage.picture.light,
+                   .boxes = world.bodies.size(),
+                   .width = canvas.drawnWidth(),
+                   .height = canvas.drawnHeight(),
+                   .wantsEdges = canvas.wantsEdges()});
   checkGl(gl, "preparing to draw");
 }
 
@@ -245,15 +210,8 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from, She
   }
   shadedCells = PictureCells(view);
   occludedCells = PictureCells(view);
-  double returned = 0;  // the mean of all boxes
-  if (occlusion && stage.picture.light.has(LightPart::kBounce)) {
-    for (DrawnBox& box : drawn) {
-      const Vec3 albedo = (1 - materials.ownColor) * materials.boxColor + materials.ownColor * box.color;
-      box.returned = materials.bounce * albedo;
-      returned += kReturnedToBoxes * box.returned.mean() / static_cast<double>(drawn.size());
-    }
-  }
-  block.up = floats(camera.up.normalized(), returned);
+  const bool bounces = occlusion && stage.picture.light.has(LightPart::kBounce);
+  block.up = floats(camera.up.normalized(), bounces ? returnLight(drawn, materials) : 0);
   changed.begin(view, block, canvas.drawnWidth(), canvas.drawnHeight(),
                 sheet == Sheet::kPicture && mayBeCompared(stage, drawn));
   CellInputs* const inputs = changed.inputs();
