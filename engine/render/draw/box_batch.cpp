@@ -110,15 +110,14 @@ void BoxBatch::fill(const CellInputs* inputs, const PictureCells::Set& cells) {
   }
 }
 
-void BoxBatch::fillNeighbors() const {
+void BoxBatch::fillNeighbors() {
   constexpr std::size_t kRow = std::size_t{1} << kTexturePower;
   const std::size_t rows = std::max<std::size_t>(1, (texels_.size() / 4 + kRow - 1) / kRow);
-  std::vector<float> texels = texels_;
-  texels.resize(4 * kRow * rows);
+  texels_.resize(4 * kRow * rows);
   gl_.ActiveTexture(GL_TEXTURE0 + kNeighborUnit);
   gl_.BindTexture(GL_TEXTURE_2D, neighborTexture_);
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, kRow, static_cast<GLsizei>(rows), 0, GL_RGBA, GL_FLOAT,
-                 texels.data());
+                 texels_.data());
   gl_.ActiveTexture(GL_TEXTURE0);
 }
 

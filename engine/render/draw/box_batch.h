@@ -67,7 +67,7 @@ class BoxBatch {
   void drawOutlines(const Mesh& mesh, std::size_t layer) const;
   void draw(const Mesh& mesh, std::size_t from, std::size_t to) const;
   void moveBehind(std::size_t steps) const;
-  void fillNeighbors() const;
+  void fillNeighbors();
   unsigned programThat(const char* write) const;
 
   const Gl& gl_;

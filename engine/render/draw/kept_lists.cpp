@@ -28,14 +28,14 @@ void KeptLists::begin(std::span<const DrawnBox> boxes, std::span<const DrawnFace
                       double pixelAngle) {
   faceBefore_.clear();
   changed_.clear();
-  if (eye == eye_ && pixelAngle == pixelAngle_ && !faces_.empty() && !haveCopies(boxes) &&
-      !haveCopies(boxes_)) {
+  const bool stands = eye == eye_ && pixelAngle == pixelAngle_ && !haveCopies(boxes);
+  if (stands && !faces_.empty()) {
     compare(boxes, faces);
   }
   eye_ = eye;
   pixelAngle_ = pixelAngle;
-  boxes_.assign(boxes.begin(), boxes.end());
-  faces_.assign(faces.begin(), faces.end());
+  boxes_.assign(boxes.begin(), stands ? boxes.end() : boxes.begin());
+  faces_.assign(faces.begin(), stands ? faces.end() : faces.begin());
 }
 
 void KeptLists::compare(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces) {
@@ -82,8 +82,10 @@ void KeptLists::compare(std::span<const DrawnBox> boxes, std::span<const DrawnFa
 }
 
 void KeptLists::keep(FaceShadows shadows, FaceNeighbors neighbors) {
-  shadows_ = std::move(shadows);
-  neighbors_ = std::move(neighbors);
+  if (!faces_.empty()) {
+    shadows_ = std::move(shadows);
+    neighbors_ = std::move(neighbors);
+  }
 }
 
 }  // namespace careen

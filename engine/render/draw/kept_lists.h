@@ -14,8 +14,9 @@ namespace careen {
 /// What was found about the faces of the shot before, for those of the next one that see the same boxes.
 class KeptLists {
  public:
-  /// Compares the boxes and faces of a shot with those of the one before. Nothing is kept if the eye or the
-  /// width of a pixel [rad] are others, boxes have copies, or no fewer of them have changed than have not.
+  /// Compares the boxes and faces of a shot with those of the one before. Nothing is kept before the eye and
+  /// the width of a pixel [rad] have been the same twice, so that a camera that moves costs nothing; nor if
+  /// boxes have copies, or no fewer of them have changed than have not.
   void begin(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, const Vec3& eye,
              double pixelAngle);
   /// For the next shot: what was found of the boxes and faces of this one.

@@ -93,6 +93,7 @@ TEST(KeptLists, areThoseThatWouldBeFoundAnew) {
     std::vector<DrawnBox> boxes = randomBoxes(random, count);
     Shots shots;
     EXPECT_EQ(shots.see(boxes), 0U);
+    EXPECT_EQ(shots.see(boxes), 0U);  // the eye may move
     const std::size_t faces = shots.see(boxes);
     EXPECT_GE(faces, 2 * count);
     EXPECT_EQ(shots.changed(), 0U);
@@ -112,6 +113,7 @@ TEST(KeptLists, boxesMayComeAndGo) {
   std::vector<DrawnBox> boxes = randomBoxes(random, 60);
   Shots shots;
   shots.see(boxes);
+  shots.see(boxes);
   const DrawnBox last = boxes.back();
   boxes.pop_back();
   EXPECT_GT(shots.see(boxes), 100U);
@@ -126,9 +128,12 @@ TEST(KeptLists, nothingIsKeptFromElsewhereOrOfCopiesOrWhereMostHasChanged) {
   std::vector<DrawnBox> boxes = randomBoxes(random, 40);
   Shots shots;
   shots.see(boxes);
+  shots.see(boxes);
   EXPECT_GT(shots.see(boxes), 0U);
   EXPECT_EQ(shots.see(boxes, kEyeOfLists + Vec3(0, 0, 1e-6)), 0U);
   EXPECT_EQ(shots.see(boxes), 0U);
+  EXPECT_EQ(shots.see(boxes), 0U);
+  EXPECT_GT(shots.see(boxes), 0U);
   for (std::size_t i = 0; i < 20; ++i) {
     boxes[i] = randomBox(random, i);
   }
