@@ -61,6 +61,7 @@ FilmManifest fromJson(const nlohmann::json& json) {
   manifest.shownAs = json.value("shown_as", "");
   manifest.ghost = json.value("ghost", "");
   manifest.beside = json.value("beside", "");
+  manifest.plot = json.value("plot", "");
   manifest.picture = pictureFrom(json);
   manifest.frameCount = wholeNumber(json.at("frame_count"), "frame_count", 0, kMostFrames);
   if (const std::string frames = json.at("frames").get<std::string>(); !frames.empty()) {
@@ -148,6 +149,9 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
   if (!manifest.beside.empty()) {
     json["beside"] = manifest.beside;
   }
+  if (!manifest.plot.empty()) {
+    json["plot"] = manifest.plot;
+  }
   if (!manifest.hashes.empty()) {
     json["hashes"] = hashesOf(manifest);
   }
@@ -166,6 +170,7 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
               asked.ghost.empty() ? "none" : asked.ghost) +
       compare("beside", there.beside.empty() ? "none" : there.beside,
               asked.beside.empty() ? "none" : asked.beside) +
+      compare("plot", there.plot.empty() ? "none" : there.plot, asked.plot.empty() ? "none" : asked.plot) +
       compare("size", sizeText(there.picture), sizeText(asked.picture)) +
       compare("fps", there.picture.rate.text(), asked.picture.rate.text()) +
       compare("look", nameOf(there.picture.look), nameOf(asked.picture.look)) +

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/error.h"
@@ -122,7 +123,7 @@ struct Renderer::Parts {
   Gl gl;
   Canvas canvas;
   std::filesystem::path shaders;
-  std::optional<OverlayBatch> overlays;  // created for the first picture with overlays
+  std::map<std::pair<int, int>, OverlayBatch> overlays;  // by size, created for the first picture of it
   BoxBatch boxes;
   SurfaceBatch surfaces;
   std::optional<ShadowBatch> shadowBatch;
@@ -404,10 +405,8 @@ Picture Renderer::Parts::drawn(const Draw& draw) {
 }
 
 void Renderer::Parts::drawOver(Picture& picture, const OverlayShapes& shapes) {
-  if (!overlays) {
-    overlays.emplace(gl, shaders, picture.width, picture.height);
-  }
-  overlays->drawOver(picture, shapes);
+  overlays.try_emplace({picture.width, picture.height}, gl, shaders, picture.width, picture.height)
+      .first->second.drawOver(picture, shapes);
   ++figures.overlayPasses;
 }
 

@@ -69,7 +69,7 @@ class Renderer {
   Picture draw(std::span<const Pose> poses);
   /// What the pictures show from there.
   View view(const Camera& camera) const;
-  /// Draws these shapes over the picture.
+  /// Draws these shapes over the picture, of whatever size.
   void drawOver(Picture& picture, const OverlayShapes& shapes);
 
   /// GL's renderer and version, such as "llvmpipe (…), OpenGL … Mesa 22.3.6, libOSMesa.so.8".

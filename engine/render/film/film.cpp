@@ -50,14 +50,16 @@ std::string hashesOf(std::span<const Trajectory* const> runs) {
 
 FilmManifest manifestOf(const Trajectory& run, const FilmSettings& settings, const FilmPictures& pictures) {
   const PictureSettings picture = pictures.settings();
+  const ShownBesides& besides = settings.besides;
   FilmManifest manifest{.program = settings.program,
                         .renderer = {},
                         .libraries = librariesHere(),
                         .sceneHash = run.sceneHash(),
                         .stateHash = run.stateHash(),
                         .shownAs = run.stage.shownAs,
-                        .ghost = settings.ghost != nullptr ? settings.ghost->stateHash() : "",
-                        .beside = hashesOf(settings.beside),
+                        .ghost = besides.ghost != nullptr ? besides.ghost->stateHash() : "",
+                        .beside = hashesOf(besides.beside),
+                        .plot = besides.plot ? std::string(nameOf(*besides.plot)) : "",
                         .picture = picture,
                         .frameCount = picture.rate.frameCount(pictures.duration()),
                         .frames = {},
@@ -283,7 +285,7 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
                        const std::stop_token& stop) {
   const double wallBegun = wallSeconds();
   const double coreBegun = coreSeconds();
-  FilmPictures pictures(run, settings.beside, settings.ghost);
+  FilmPictures pictures(run, settings.besides);
   const PictureSettings picture = pictures.settings();
   FilmManifest asked = manifestOf(run, settings, pictures);
   pictures.first().checkCamera(asked.frames, picture.rate);
@@ -319,6 +321,7 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
     video->finish();
   }
   figures.jobs = jobs;
+  figures.picture = picture;
   figures.renderer = asked.renderer;
   figures.wallSeconds = wallSeconds() - wallBegun;
   figures.coreSeconds = coreSeconds() - coreBegun + coreOfWorkers;
