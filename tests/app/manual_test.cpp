@@ -107,7 +107,7 @@ std::vector<std::string> sentencesOf(const std::string& page) {
   for (std::string text : paragraphs) {
     text = std::regex_replace(text, std::regex("`[^`]*`"), "Code");
     text = std::regex_replace(text, std::regex(R"(\[([^\]]*)\]\([^)]*\))"), "$1");
-    text = std::regex_replace(text, std::regex(R"(([.!?][)"*]*) +(?=[^a-z ]|careen ))"), "$1\n");
+    text = std::regex_replace(text, std::regex(R"re(([.!?][)"*]*) +(?=[^a-z ]|careen ))re"), "$1\n");
     const std::vector<std::string> parts = linesOf(text);
     sentences.insert(sentences.end(), parts.begin(), parts.end());
   }
