@@ -203,6 +203,9 @@ OverlayBatch::OverlayBatch(const Gl& gl, const std::filesystem::path& shaders, i
 }
 
 void OverlayBatch::sendAtlas() {
+  gl_.ActiveTexture(GL_TEXTURE0 + kGlyphUnit);
+  gl_.BindTexture(GL_TEXTURE_2D, texture_);  // another batch may have bound its own
+  gl_.ActiveTexture(GL_TEXTURE0);
   if (atlas_.revision() == sentRevision_ || atlas_.coverage().empty()) {
     return;
   }

@@ -91,6 +91,22 @@ TEST_F(FilmPicturesTest, theFilmIsAsLongAsTheLongest) {
   EXPECT_EQ(FilmPictures(first, {.beside = {&other}}).duration(), 0.75);
 }
 
+// Text of pictures of two sizes, in turns.
+TEST_F(FilmPicturesTest, aPlotDoesNotMixUpItsTextWithThatAbove) {
+  Trajectory first = run(Vec3(1, 0, 0));
+  showFirst(first, "first");
+  const auto drawnAfter = [&](const std::vector<double>& before) {
+    FilmPictures pictures(first, {.plot = PlotQuantity::kSpeed});
+    pictures.makeOverlays();
+    pictures.open({});
+    for (const double time : before) {
+      pictures.draw(time);
+    }
+    return pictures.draw(0.5).rgb;
+  };
+  EXPECT_EQ(drawnAfter({0.1, 0.9}), drawnAfter({}));
+}
+
 TEST_F(FilmPicturesTest, aPlotStandsBelowAndChangesNoPixelAbove) {
   const Trajectory first = run(Vec3(1, 0, 0));
   const Trajectory other = run(Vec3(1, 0, 1));
