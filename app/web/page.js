@@ -383,7 +383,7 @@ function chartEnergies(text) {
   const place = byId("energy");
   place.replaceChildren(picture);
   for (const [name, value] of [["high", high], ["low", low]]) {
-    place.append(Object.assign(document.createElement("span"), { className: name, textContent: shown(value) }));
+    place.append(Object.assign(document.createElement("span"), { className: name, textContent: shown(Math.abs(value) > 1e-9 * (high - low) ? value.toPrecision(3) : 0) }));
   }
   byId("legend").replaceChildren();
   const labels = series.map(each => {
