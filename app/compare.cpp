@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -26,30 +27,48 @@ namespace {
 constexpr int kMostThreads = 256;
 constexpr std::size_t kMostFramesTold = 10;
 
-/// An option that overrides one number of a threshold.
+/// A number of a threshold that may be given.
 struct Override {
-  const char* option;
-  const char* help;
+  std::string_view name;  // as idiff's options, where it has one
   double Tolerance::*value;
   double most;
 };
 
-// Names as in idiff, where it has one.
 constexpr double kAny = Tolerance::kAny;
-constexpr std::array<Override, 10> kOverrides = {{
-    {"--fail", "A pixel fails if a channel differs by more, of 1", &Tolerance::fail, 1},
-    {"--failpercent", "Of the pixels that may fail", &Tolerance::failPercent, 100},
-    {"--hardfail", "No channel may differ by more, of 1", &Tolerance::hardFail, kAny},
-    {"--warn", "As --fail, for a warning", &Tolerance::warn, 1},
-    {"--warnpercent", "As --failpercent, for a warning", &Tolerance::warnPercent, 100},
-    {"--hardwarn", "As --hardfail, for a warning", &Tolerance::hardWarn, kAny},
-    {"--changedpercent", "Of the pixels that may have another colour to the eye", &Tolerance::changedPercent,
-     100},
-    {"--edgepercent", "The same of those at edges that lie elsewhere by less than a pixel",
-     &Tolerance::edgePercent, 100},
-    {"--ssim", "Least SSIM of a frame", &Tolerance::leastSsim, 1},
-    {"--windowssim", "Least SSIM of any part of it, 11 pixels wide and high", &Tolerance::leastWindowSsim, 1},
-}};
+constexpr std::array<Override, 10> kOverrides = {{{"fail", &Tolerance::fail, 1},
+                                                  {"failpercent", &Tolerance::failPercent, 100},
+                                                  {"hardfail", &Tolerance::hardFail, kAny},
+                                                  {"warn", &Tolerance::warn, 1},
+                                                  {"warnpercent", &Tolerance::warnPercent, 100},
+                                                  {"hardwarn", &Tolerance::hardWarn, kAny},
+                                                  {"changedpercent", &Tolerance::changedPercent, 100},
+                                                  {"edgepercent", &Tolerance::edgePercent, 100},
+                                                  {"ssim", &Tolerance::leastSsim, 1},
+                                                  {"windowssim", &Tolerance::leastWindowSsim, 1}}};
+
+// NAME=NUMBER.
+void allow(const std::string& text, ComparisonSettings& settings) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const auto* const found = std::find_if(kOverrides.begin(), kOverrides.end(), [&](const Override& each) {
+    return each.name == std::string_view(text).substr(0, equals);
+  });
+  if (found == kOverrides.end()) {
+    std::string known;
+    for (const Override& each : kOverrides) {
+      known.append(known.empty() ? "" : ", ").append(each.name);
+    }
+    throw InputError("--allow: found '" + text + "', expected NAME=NUMBER, with one of: " + known);
+  }
+  const char* const begin = text.data() + std::min(equals + 1, text.size());
+  double limit = 0;
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), limit);
+  if (error != std::errc() || end != text.data() + text.size() || !(limit >= 0 && limit <= found->most)) {
+    throw InputError("--allow: found '" + text + "', expected " + std::string(found->name) + "=0 " +
+                     (found->most < kAny ? "to " + brief(found->most) : "or more"));
+  }
+  settings.tolerance.*found->value = limit;
+  settings.toleranceName.append(", ").append(found->name).append("=").append(brief(limit));
+}
 
 double motionToleranceOf(const std::string& text) {
   char* end = nullptr;
@@ -105,6 +124,7 @@ Films filmsIn(const std::filesystem::path& expected, const std::filesystem::path
                    {"antialiasing", nameOf(one->picture.antialiasing), nameOf(other->picture.antialiasing)},
                    {"shutter", one->picture.shutter.text(), other->picture.shutter.text()},
                    {"overlays", one->picture.overlays.text(), other->picture.overlays.text()},
+                   {"alpha", one->picture.alpha ? "yes" : "no", other->picture.alpha ? "yes" : "no"},
                    {"light", one->picture.light.text(), other->picture.light.text()}};
   }
   return films;
@@ -248,10 +268,11 @@ void print(std::ostream& out, const Comparison& comparison) {
 void CompareOptions::addTo(const CommandLine& command) {
   command.add("--threshold", threshold, "What may differ, by name: " + listed(kToleranceNames))
       .showsDefault();
-  for (const Override& each : kOverrides) {
-    command.add(
-        each.option, [this, &each](double value) { limits[each.option] = value; }, each.help);
-  }
+  command
+      .add("--allow", allowed,
+           "Other numbers than those of the threshold, such as failpercent=5,ssim=0.9 (see 'careen help "
+           "comparing')")
+      .delimiter(',');
   command
       .add("--motion", motion,
            "Of runs and films: same, bit for bit; any; or how far apart boxes may be in runs, in their "
@@ -272,16 +293,8 @@ ComparisonSettings CompareOptions::settings() const {
   settings.program = "careen " CAREEN_VERSION;
   settings.toleranceName = threshold;
   settings.tolerance = parsed("--threshold", threshold, toleranceOf);
-  for (const Override& each : kOverrides) {
-    if (const auto given = limits.find(each.option); given != limits.end()) {
-      const double limit = given->second;
-      if (!(limit >= 0 && limit <= each.most)) {
-        throw InputError(std::string(each.option) + ": found " + brief(limit) + ", expected 0 " +
-                         (each.most < kAny ? "to " + brief(each.most) : "or more"));
-      }
-      settings.tolerance.*each.value = limit;
-      settings.toleranceName += ", " + std::string(each.option) + " " + brief(limit);
-    }
+  for (const std::string& each : allowed) {
+    allow(each, settings);
   }
   settings.motionCounts = motion != "any";
   if (motion != "any" && motion != "same") {

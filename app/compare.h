@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <set>
 #include <stop_token>
@@ -19,8 +18,7 @@ class CommandLine;
 /// Options of a comparison, as given on the command line.
 struct CompareOptions {
   std::string threshold = "same-picture";
-  std::map<std::string, double>
-      limits;  ///< overrides of the threshold's limits, by option: "--fail" and so on
+  std::vector<std::string> allowed;  ///< numbers in place of the threshold's: "fail=0.1" and so on
   std::string motion = "same";
   std::optional<double> until;       ///< [s]
   std::vector<std::string> ignored;  ///< rectangles and masks

@@ -4,8 +4,9 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/names.h"
 #include "core/system/file.h"
-#include "render/film/film_pictures.h"
+#include "parsed.h"
 
 namespace careen {
 namespace {
@@ -64,6 +65,9 @@ CommandOption OtherRuns::addTo(const CommandLine& command) {
       "step; the film is so many times as wide");
   command.add("--names", names, "Their names, such as 1997,exact (default: those of the files)")
       .needs(besideThese);
+  command.add("--plot", plot,
+              "A plot below, which grows with the film: energy, speed (of the fastest box) or distance (of "
+              "the box that is farthest from where it is in the first run)");
   const CommandOption outlines = command.add(
       "--ghost", ghost,
       "Another run of these boxes (trajectory file or table of poses): drawn as outlines, with the distance");
@@ -94,14 +98,24 @@ std::vector<Trajectory> OtherRuns::read(Run& run, const SceneOfTable& scene) con
   return others;
 }
 
-void OtherRuns::takeInto(FilmSettings& film, const std::vector<Trajectory>& others) const {
+ShownBesides OtherRuns::shown(const std::vector<Trajectory>& others) const {
+  ShownBesides shown;
+  if (plot) {
+    shown.plot = parsed("--plot", *plot, [](const std::string& name) {
+      return static_cast<PlotQuantity>(indexAmong(name, kPlotQuantities));
+    });
+  }
+  if (shown.plot == PlotQuantity::kDistance && beside.empty()) {
+    throw InputError("--plot: found distance, expected --beside, the runs whose distance it is");
+  }
   for (const Trajectory& each : others) {
     if (ghost) {
-      film.ghost = &each;
+      shown.ghost = &each;
     } else {
-      film.beside.push_back(&each);
+      shown.beside.push_back(&each);
     }
   }
+  return shown;
 }
 
 }  // namespace careen

@@ -42,6 +42,7 @@ void PictureOptions::applyTo(PictureSettings& picture) const {
   if (antialiasing) {
     picture.antialiasing = parsed("--antialiasing", *antialiasing, antialiasingNamed);
   }
+  picture.alpha = alpha;
   if (overlays) {
     picture.overlays = parsed("--overlays", *overlays, OverlaySet::named);
   }

@@ -18,6 +18,7 @@ struct PictureOptions : SizeAndRate {
   std::optional<std::string> look;
   std::optional<std::string> light;
   std::optional<std::string> antialiasing;
+  bool alpha = false;  ///< no option of addTo: not every command makes pictures to lay over others
   std::string backend = "auto";
   ContextOptions context;
 

@@ -97,6 +97,7 @@ void takeFromReference(const Reference& reference, PictureOptions& picture, std:
   take(picture.shutter, film.picture.shutter.degrees > 0 ? film.picture.shutter.text() : "0");
   take(picture.overlays, film.picture.overlays.text());
   take(picture.light, film.picture.light.text());
+  picture.alpha = picture.alpha || film.picture.alpha;
   if (frames.empty()) {
     frames = rangesText(film.frames);
     return;

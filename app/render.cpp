@@ -70,7 +70,7 @@ std::optional<VideoSettings> videoOf(const FilmOptions& options) {
   if (!options.video) {
     return std::nullopt;
   }
-  VideoSettings video{.path = *options.video, .codec = options.codec};
+  VideoSettings video{.path = *options.video, .codec = options.codec, .alpha = options.picture.alpha};
   video.quality = parsed("--quality", options.quality, videoQualityNamed);
   return video;
 }
@@ -106,6 +106,9 @@ void check(const FilmOptions& options) {
   if (options.jobs && (*options.jobs < 1 || *options.jobs > kMostJobs)) {
     fail("--jobs", std::to_string(*options.jobs), "1 to " + std::to_string(kMostJobs));
   }
+  if (options.strobe && options.others.plot) {
+    fail("--plot", "it with --strobe", "a film or --still");
+  }
   if (options.log != "text" && options.log != "json") {
     fail("--log", "'" + options.log + "'", "text or json");
   }
@@ -130,6 +133,7 @@ FilmSettings settingsOf(const FilmOptions& options) {
     settings.frames = parseFrameRanges(options.frames);
   }
   settings.video = videoOf(options);
+  settings.besides = options.others.shown({});  // the runs follow
   settings.jobs = options.jobs;
   settings.program = "careen " CAREEN_VERSION;
   settings.there = options.resume      ? FilmThere::kResume
@@ -152,16 +156,9 @@ std::optional<TruthSettings> truthOf(const FilmOptions& options, const FilmSetti
   return truth;
 }
 
-// With the runs beside it.
-PictureSettings wholePicture(const Run& run, const FilmSettings& settings) {
-  PictureSettings picture = run.trajectory.stage.picture;
-  picture.width *= static_cast<int>(1 + settings.beside.size());
-  return picture;
-}
-
 void writeReport(const Run& run, const FilmSettings& settings, const FilmFigures& figures,
                  double wallSeconds) {
-  const PictureSettings picture = wholePicture(run, settings);
+  const PictureSettings& picture = figures.picture;
   nlohmann::ordered_json report = runReport(run, wallSeconds);
   report["seconds"]["draw"] = figures.drawSeconds;
   report["seconds"]["read"] = figures.readSeconds;
@@ -197,8 +194,9 @@ void printDrawing(std::ostream& out, const FilmFigures& figures) {
 }
 
 // Of frames that are compared, the result tells which are kept, and where.
-void printFilm(std::ostream& out, const FilmSettings& settings, const PictureSettings& picture,
-               const FilmFigures& figures, const Reference* reference) {
+void printFilm(std::ostream& out, const FilmSettings& settings, const FilmFigures& figures,
+               const Reference* reference) {
+  const PictureSettings& picture = figures.picture;
   out << "frames       " << figures.drawn + figures.skipped << " at " << picture.rate.text()
       << " per second, " << picture.width << 'x' << picture.height;
   if (figures.skipped > 0) {
@@ -240,6 +238,9 @@ ExitCode listBackends(const ContextOptions& options) {
 
 // Runs before the simulation, like all checks of options.
 Reference openReference(FilmOptions& options) {
+  if (!options.others.beside.empty() || options.others.plot) {
+    throw InputError("--ref: found it with --beside or --plot, expected a film of one run");
+  }
   Reference reference = readReference(*options.reference);
   takeFromReference(reference, options.picture, options.frames, options.compare);
   const ComparisonSettings settings = options.compare.settings();
@@ -298,7 +299,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   PictureSettings& picture = run.trajectory.stage.picture;
   options.picture.applyTo(picture);
   const std::vector<Trajectory> others = options.others.read(run, options.scene);
-  options.others.takeInto(settings, others);
+  settings.besides = options.others.shown(others);
   if (settings.video) {
     settings.video->rateNumerator = picture.rate.numerator;
     settings.video->rateDenominator = picture.rate.denominator;
@@ -308,8 +309,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
                      {.path = options.folder,
                       .moment = options.still.value_or(0),
                       .strobe = options.strobe,
-                      .beside = settings.beside,
-                      .ghost = settings.ghost});
+                      .besides = settings.besides});
   }
   const std::string sound = options.sound.of(run.trajectory, settings, stop);
   FilmSettings told = settings;
@@ -349,7 +349,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (options.verbose) {
     printDrawing(summary, figures);
   }
-  printFilm(summary, told, wholePicture(run, settings), figures, reference ? &*reference : nullptr);
+  printFilm(summary, told, figures, reference ? &*reference : nullptr);
   if (approval) {
     return approval->approve(options.compare, logsJson, stop);
   }
@@ -376,9 +376,16 @@ void addRender(const CommandLine& commandLine) {
                   "Labels of every pixel of the frames too, as by 'careen truth': all, or names such as "
                   "depth,instance,flow");
   const CommandOption blur = options->picture.addTo(command);
-  const CommandOption video = command.add(
-      "--video", options->video, "Film to make of the frames, by ffmpeg: .mp4, .mkv, .webm, .webp or .gif");
-  command.add("--codec", options->codec, "h264, vp9 or av1 (default: h264 for .mp4 and .mkv, vp9 for .webm)")
+  command.addFlag(
+      "--alpha", options->picture.alpha,
+      "Boxes and their shadows on nothing, in PNG files with alpha, to be laid over other pictures");
+  const CommandOption video =
+      command.add("--video", options->video,
+                  "Film to make of the frames, by ffmpeg: .mp4, .mkv, .mov, .webm, .webp, .gif or .apng");
+  command
+      .add("--codec", options->codec,
+           "h264, vp9, av1 or prores, or h264-444 or vp9-444, with 10 bits and all colours (default: the "
+           "first of these that its format has; vp9 for .webm, prores for .mov)")
       .needs(video);
   command.add("--quality", options->quality, "The video's: draft, good or best (default: good)").needs(video);
   command.add("--jobs", options->jobs,

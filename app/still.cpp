@@ -6,7 +6,6 @@
 #include "core/brief.h"
 #include "core/characters.h"
 #include "image/png.h"
-#include "render/film/film_pictures.h"
 #include "render/film/strobe.h"
 #include "view/out_of_view.h"
 
@@ -45,7 +44,7 @@ std::filesystem::path placeOf(const Run& run, const Still& still) {
 }  // namespace
 
 ExitCode drawStill(const Run& run, const RenderOptions& options, const Still& still) {
-  FilmPictures pictures(run.trajectory, still.beside, still.strobe ? nullptr : still.ghost);
+  FilmPictures pictures(run.trajectory, still.strobe ? ShownBesides() : still.besides);
   const std::vector<double> moments = momentsOf(still);
   checkMoments(moments, pictures.duration(), still.strobe ? "--strobe" : "--still");
   pictures.makeOverlays();

@@ -29,17 +29,45 @@ float covered(float distance) {
   return clamp(0.5 - distance / max(perPixel, 1e-9), 0.0, 1.0);
 }
 
-float pipDistance(vec2 p, float spacing, float radius) {
-  float nearest = 1e9;
+// From the middle of the nearest pip.
+vec2 fromPip(vec2 p, float spacing) {
   bool odd = mod(pips, 2.0) > 0.5;
-  if (odd) nearest = length(p);
+  vec2 nearest = odd ? p : vec2(1e9);
   if (pips > 3.5) {
-    nearest = min(nearest, length(abs(p) - spacing));
+    vec2 corner = abs(p) - spacing;
+    nearest = dot(corner, corner) < dot(nearest, nearest) ? corner : nearest;
   } else if (pips > 1.5) {
-    nearest = min(nearest, length((p.x + p.y < 0.0 ? -p : p) - spacing));
+    vec2 corner = (p.x + p.y < 0.0 ? -p : p) - spacing;
+    nearest = dot(corner, corner) < dot(nearest, nearest) ? corner : nearest;
   }
-  if (pips > 5.5) nearest = min(nearest, length(vec2(abs(p.x) - spacing, p.y)));
-  return nearest - radius;
+  if (pips > 5.5) {
+    vec2 side = vec2(abs(p.x) - spacing, p.y);
+    nearest = dot(side, side) < dot(nearest, nearest) ? side : nearest;
+  }
+  return nearest;
+}
+
+// Coverage of the pixel by a disc about p = 0: by the distance to its edge, but no more than its chord has of the
+// pixel's length, which is taken where that is longest: there the disc may be thinner than a pixel. `pixel`: what the
+// place grows by to the right and up.
+float coveredByDisc(vec2 p, float radius, mat2 pixel) {
+  float size = length(p);
+  vec2 outward = size > 0.0 ? p / size : vec2(1.0, 0.0);
+  float byEdge = 0.5 - (size - radius) / max(length(outward * pixel), 1e-9);
+  // The pixel's axes are those of the ellipse that it makes of a circle.
+  mat2 squares = pixel * transpose(pixel);
+  float mean = 0.5 * (squares[0][0] + squares[1][1]);
+  float differ = 0.5 * (squares[0][0] - squares[1][1]);
+  float spread = sqrt(differ * differ + squares[0][1] * squares[0][1]);
+  float far = sqrt(mean + spread);
+  float near = sqrt(max(mean - spread, 0.0));
+  vec2 axis = differ > 0.0 ? vec2(differ + spread, squares[0][1]) : vec2(squares[0][1], spread - differ);
+  axis = spread > 0.0 ? normalize(axis) : vec2(1.0, 0.0);
+  float aside = max(abs(dot(p, vec2(-axis.y, axis.x))) - 0.5 * near, 0.0);
+  float chord = sqrt(max(radius * radius - aside * aside, 0.0));
+  float along = dot(p, axis);
+  float byChord = min(chord, along + 0.5 * far) - max(-chord, along - 0.5 * far);
+  return clamp(min(byEdge, byChord / max(far, 1e-9)), 0.0, 1.0) * min(2.0 * radius / max(near, 1e-9), 1.0);
 }
 
 // A place on the face over how far it is, which makes it linear in the picture: here, and what it grows by to the right
@@ -99,10 +127,10 @@ void main() {
     vec2 beyond = abs(onFace) - (halfFace - inset - rounding);
     float panel = length(max(beyond, 0.0)) + min(max(beyond.x, beyond.y), 0.0) - rounding;
     bool isLight = dot(baseColor.rgb, vec3(0.2126, 0.7152, 0.0722)) > 0.4;
-    float pip = pipDistance(onFace, 0.44 * unit, 0.165 * unit);
+    float pip = coveredByDisc(fromPip(onFace, 0.44 * unit), 0.165 * unit, mat2(dFdx(onFace), dFdy(onFace)));
     vec3 plain = 0.72 * albedo;  // the mean of panel and frame, where a face is too thin for them
     vec3 marked = mix(0.42 * albedo, albedo, covered(panel));
-    marked = mix(marked, isLight ? kInk : kIvory, covered(pip));
+    marked = mix(marked, isLight ? kInk : kIvory, pip);
     albedo = mix(plain, marked, clamp((thickness - 1.0) / 3.0, 0.0, 1.0));
 
     // Edges reflect light as if worn round: the mean over the pixel, or thin ones are rows of dots.

@@ -287,6 +287,25 @@ py::array_t<std::uint8_t> frameOf(const Run& run, double time, const Size& size)
   return array;
 }
 
+py::dict differenceOf(const Run& run, const Run& other) {
+  careen::v1::Difference found;
+  {
+    const py::gil_scoped_release unlocked;
+    found = run.differenceFrom(other);
+  }
+  py::dict difference;
+  difference["incomparable"] = found.incomparable;
+  difference["same"] = found.same;
+  difference["from"] = found.from;
+  difference["position"] = found.position;
+  difference["angle"] = found.angle;
+  difference["box"] = found.box;
+  difference["time"] = found.time;
+  difference["horizon"] = found.horizon;
+  difference["first_impact"] = found.firstImpact;
+  return difference;
+}
+
 // Exceptions of the module: careen.Error, and careen.SceneError with file, line and column.
 void addErrors(py::module_& module) {
   static const py::object error = py::exception<careen::v1::Error>(module, "Error", PyExc_RuntimeError);
@@ -372,6 +391,41 @@ PYBIND11_MODULE(careen, module) {
            "The picture at film time t [s], an array of uint8 (height, width, 3); size is (width, height) "
            "[px], that "
            "of the scene if there is none.")
+      .def(
+          "film",
+          [](const Run& run, const std::filesystem::path& folder,
+             const std::optional<std::filesystem::path>& video, const std::string& quality,
+             const std::string& frames, const Size& size, bool alpha, bool replace,
+             const std::optional<int>& jobs) {
+            run.film({.folder = folder,
+                      .video = video.value_or(""),
+                      .quality = quality,
+                      .frames = frames,
+                      .size = size,
+                      .alpha = alpha,
+                      .replace = replace,
+                      .jobs = jobs});
+          },
+          py::arg("folder"), py::kw_only(), py::arg("video") = py::none(), py::arg("quality") = "good",
+          py::arg("frames") = "", py::arg("size") = py::none(), py::arg("alpha") = false,
+          py::arg("replace") = false, py::arg("jobs") = py::none(), py::call_guard<py::gil_scoped_release>(),
+          "Draws the film into a folder as careen render does: PNG frames and, if a video is named, that too "
+          "(.mp4, .webm ..., by ffmpeg; quality draft, good or best). frames such as '0-119,200:2', all if "
+          "empty; size (width, height) [px]; alpha: boxes and shadows on nothing; replace another film that "
+          "is "
+          "there; jobs: processes. They are forked: not after frame() in the same process.")
+      .def(
+          "export", &Run::exportTo, py::arg("path"), py::arg("every") = 1.0 / 60,
+          py::call_guard<py::gil_scoped_release>(),
+          "Writes a file of another program, by the end of its name: .glb (glTF), .xml (MJCF), .npz or .csv, "
+          "tables with poses at every so many seconds.")
+      .def("difference_from", &differenceOf, py::arg("other"),
+           "How far the run is from another one of the same scene, a dictionary: incomparable, list of str, "
+           "why "
+           "they are none; same (bool), to the bit; from [s] or None; position [m], angle [rad], box and "
+           "time [s] "
+           "of the largest difference up to the horizon [s], from which on they are unrelated, or None; "
+           "first_impact (str) that differs.")
       .def("save", &Run::save, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
            "Writes the run as a file that careen render and careen.read_run take.");
   module.def(
@@ -389,4 +443,20 @@ PYBIND11_MODULE(careen, module) {
       "where.");
   module.def("read_run", &Run::read, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
              "Reads a run that Run.save or careen simulate wrote.");
+  module.def(
+      "sweep",
+      [](const std::filesystem::path& family, const std::filesystem::path& folder,
+         const std::array<long, 2>& runs, int jobs) {
+        careen::v1::SweepTable table;
+        {
+          const py::gil_scoped_release unlocked;
+          table = careen::v1::sweep(family, folder, runs[0], runs[1], jobs);
+        }
+        return py::make_tuple(table.path, table.rows, table.broken);
+      },
+      py::arg("family"), py::arg("folder"), py::kw_only(), py::arg("runs") = std::array<long, 2>{0, 99},
+      py::arg("jobs") = 0,
+      "Simulates runs (first, last) of a family, a scene file whose numbers may be distributions, in jobs "
+      "processes (0: one for each core). Returns the path of the table (table.npz beside it), its rows, and "
+      "how many of them are of runs that break a promise of their method.");
 }

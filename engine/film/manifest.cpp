@@ -43,6 +43,7 @@ PictureSettings pictureFrom(const nlohmann::json& json) {
   picture.shutter = shutter == "none" ? Shutter() : parseShutter(shutter);
   picture.overlays = OverlaySet::named(json.value("overlays", "none"));
   picture.light = LightParts::named(json.value("light", picture.light.text()));
+  picture.alpha = json.value("alpha", false);
   return picture;
 }
 
@@ -59,6 +60,7 @@ FilmManifest fromJson(const nlohmann::json& json) {
   manifest.shownAs = json.value("shown_as", "");
   manifest.ghost = json.value("ghost", "");
   manifest.beside = json.value("beside", "");
+  manifest.plot = json.value("plot", "");
   manifest.picture = pictureFrom(json);
   manifest.frameCount = wholeNumber(json.at("frame_count"), "frame_count", 0, kMostFrames);
   if (const std::string frames = json.at("frames").get<std::string>(); !frames.empty()) {
@@ -134,6 +136,9 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
       {"frame_count", manifest.frameCount},
       {"frames", rangesText(manifest.frames)},
   };
+  if (picture.alpha) {
+    json["alpha"] = true;
+  }
   if (!manifest.shownAs.empty()) {
     json["shown_as"] = manifest.shownAs;
   }
@@ -142,6 +147,9 @@ void writeManifest(const std::filesystem::path& folder, const FilmManifest& mani
   }
   if (!manifest.beside.empty()) {
     json["beside"] = manifest.beside;
+  }
+  if (!manifest.plot.empty()) {
+    json["plot"] = manifest.plot;
   }
   if (!manifest.hashes.empty()) {
     json["hashes"] = hashesOf(manifest);
@@ -161,6 +169,7 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
               asked.ghost.empty() ? "none" : asked.ghost) +
       compare("beside", there.beside.empty() ? "none" : there.beside,
               asked.beside.empty() ? "none" : asked.beside) +
+      compare("plot", there.plot.empty() ? "none" : there.plot, asked.plot.empty() ? "none" : asked.plot) +
       compare("size", sizeText(there.picture), sizeText(asked.picture)) +
       compare("fps", there.picture.rate.text(), asked.picture.rate.text()) +
       compare("look", nameOf(there.picture.look), nameOf(asked.picture.look)) +
@@ -168,6 +177,7 @@ std::string differenceOf(const FilmManifest& there, const FilmManifest& asked) {
       compare("shutter", there.picture.shutter.text(), asked.picture.shutter.text()) +
       compare("overlays", there.picture.overlays.text(), asked.picture.overlays.text()) +
       compare("light", there.picture.light.text(), asked.picture.light.text()) +
+      compare("alpha", there.picture.alpha ? "yes" : "no", asked.picture.alpha ? "yes" : "no") +
       compare("frames in all", std::to_string(there.frameCount), std::to_string(asked.frameCount)) +
       compare("program", there.program, asked.program) +
       (there.renderer.empty() || asked.renderer.empty()

@@ -24,6 +24,7 @@ struct FilmManifest {
   std::string shownAs;    ///< hash of the scene whose camera and light it has; empty: the run's own
   std::string ghost;      ///< state hash of the run that is shown as outlines; empty: none
   std::string beside;     ///< likewise of those that are shown beside it
+  std::string plot;       ///< what is plotted below; empty: nothing
   PictureSettings picture;
   std::int64_t frameCount = 0;       ///< of the whole film
   std::vector<std::int64_t> frames;  ///< requested so far, sorted

@@ -13,11 +13,11 @@ namespace careen {
 
 using PngColor = std::array<std::uint8_t, 3>;
 
-/// A PNG file's bytes: 8-bit RGB, lossless. Pixels of the colour `clear`, if any, are transparent. The same
-/// picture gives the same bytes.
+/// A PNG file's bytes: 8-bit RGB, or RGBA of a picture with alpha, lossless. Pixels of the colour `clear`, if
+/// any, are transparent. The same picture gives the same bytes.
 std::string encodePng(const Picture& picture, const std::optional<PngColor>& clear = {});
 
-/// Any PNG as 8-bit RGB, rounded; transparency is dropped. InputError, naming `name`, if the bytes are no
+/// Any PNG in 8 bits, rounded. InputError, naming `name`, if the bytes are no
 /// whole PNG or one of its checksums is wrong.
 Picture decodePng(std::string_view bytes, const std::string& name);
 

@@ -6,8 +6,6 @@
 namespace careen {
 namespace {
 
-constexpr std::size_t kPixel = 3;  // [byte]
-
 // a is to the left, b above, c above a, as in the specification; with p = a + b - c the distances are pa = |p
 // - a| = |b - c|, pb = |p - b| = |a - c| and pc = |p - c| = |(b - c) + (a - c)|. All arithmetic is in bytes,
 // so that many fit a register: where b - c and a - c have the same sign, pc is only known to be no less than
@@ -29,41 +27,42 @@ constexpr std::size_t kPixel = 3;  // [byte]
 
 // Inlined into each caller, so that it uses the caller's instruction set.
 [[gnu::always_inline]] inline void subtract(std::span<const std::uint8_t> row,
-                                            std::span<const std::uint8_t> above,
+                                            std::span<const std::uint8_t> above, std::size_t pixelBytes,
                                             std::span<std::uint8_t> difference) {
-  const std::size_t first = std::min(kPixel, row.size());
+  const std::size_t first = std::min(pixelBytes, row.size());
   for (std::size_t i = 0; i < first; ++i) {  // nothing to the left: the prediction is the byte above
     difference[i] = static_cast<std::uint8_t>(row[i] - above[i]);
   }
   for (std::size_t i = first; i < row.size(); ++i) {
-    difference[i] = static_cast<std::uint8_t>(row[i] - paeth(row[i - kPixel], above[i], above[i - kPixel]));
+    difference[i] =
+        static_cast<std::uint8_t>(row[i] - paeth(row[i - pixelBytes], above[i], above[i - pixelBytes]));
   }
 }
 
 #ifdef __x86_64__
 [[gnu::target("avx2")]] void subtractByAvx2(std::span<const std::uint8_t> row,
-                                            std::span<const std::uint8_t> above,
+                                            std::span<const std::uint8_t> above, std::size_t pixelBytes,
                                             std::span<std::uint8_t> difference) {
-  subtract(row, above, difference);
+  subtract(row, above, pixelBytes, difference);
 }
 #endif
 
 }  // namespace
 
 void subtractPaeth(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
-                   std::span<std::uint8_t> difference) {
+                   std::size_t pixelBytes, std::span<std::uint8_t> difference) {
 #ifdef __x86_64__
   if (__builtin_cpu_supports("avx2") != 0) {
-    subtractByAvx2(row, above, difference);
+    subtractByAvx2(row, above, pixelBytes, difference);
     return;
   }
 #endif
-  subtract(row, above, difference);
+  subtract(row, above, pixelBytes, difference);
 }
 
 void subtractPaethBaseline(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
-                           std::span<std::uint8_t> difference) {
-  subtract(row, above, difference);
+                           std::size_t pixelBytes, std::span<std::uint8_t> difference) {
+  subtract(row, above, pixelBytes, difference);
 }
 
 }  // namespace careen

@@ -12,20 +12,22 @@ namespace careen {
 enum class VideoQuality { kDraft, kGood, kBest };
 
 struct VideoSettings {
-  std::filesystem::path path;  ///< its suffix selects the container: .mp4, .mkv, .webm, .webp, .gif
-  std::string codec = {};      ///< h264, vp9 or av1; empty: the default of the suffix
+  std::filesystem::path path;  ///< its suffix selects the container: see the manual's page of films
+  std::string codec = {};      ///< h264, vp9 or av1 …; empty: the default of the suffix
   VideoQuality quality = VideoQuality::kGood;
   int width = 0;                    ///< [px]
   int height = 0;                   ///< [px]
   std::int64_t rateNumerator = 30;  ///< frames per second, exactly: numerator / denominator
   std::int64_t rateDenominator = 1;
+  bool alpha = false;      ///< its pictures are RGBA, else RGB
   std::string sound = {};  ///< its sound, as the bytes of a WAV file; empty: none
 };
 
 /// "draft", "good", "best"; InputError for another.
 VideoQuality videoQualityNamed(std::string_view name);
 
-/// InputError for an unsupported suffix or codec; the message lists what is supported.
+/// InputError for an unsupported suffix or codec, or one without a place for alpha or sound; the message
+/// lists what is supported.
 void checkVideo(const VideoSettings& settings);
 
 /// Whether films of this format have even widths and heights: of an odd one, the last column or row comes

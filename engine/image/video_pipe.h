@@ -25,7 +25,7 @@ class VideoPipe {
   VideoPipe& operator=(VideoPipe&&) = delete;
 
   /// Sends as many of these bytes as ffmpeg takes without waiting, and returns their number. Pictures follow
-  /// each other without a gap: 8-bit RGB, rows from the top.
+  /// each other without a gap: 8-bit RGB or RGBA, rows from the top.
   std::size_t write(std::span<const std::uint8_t> bytes);
   /// For poll: writable when ffmpeg takes more.
   int descriptor() const { return frames_; }

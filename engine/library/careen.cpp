@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "core/error.h"
 #include "core/math/arithmetic.h"
 #include "core/system/file.h"
+#include "library/run_data.h"
 #include "library/translated.h"
 #include "physics/world/control.h"
 #include "physics/world/method.h"
@@ -20,42 +20,10 @@
 #include "trajectory/energy_samples.h"
 #include "trajectory/force_samples.h"
 #include "trajectory/pose_samples.h"
-#include "trajectory/trajectory.h"
 #include "trajectory/trajectory_file.h"
-#ifdef CAREEN_RENDER
-#include "render/film/film_pictures.h"
-#endif
 
 namespace careen::v1 {
-namespace {
-
-Vector vectorOf(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-}  // namespace
-
 const char* version() { return "careen " CAREEN_VERSION; }
-
-struct Run::Data {
-  explicit Data(Trajectory run) : trajectory(std::move(run)) {
-    for (const Body& body : trajectory.world.bodies) {
-      names.push_back(body.name);
-    }
-    for (const careen::Impact& each : trajectory.impacts) {
-      impacts.push_back({.time = each.time,
-                         .a = trajectory.world.bodies.at(static_cast<std::size_t>(each.a.value)).name,
-                         .b = trajectory.partnerName(each),
-                         .point = vectorOf(each.point),
-                         .normal = vectorOf(each.normal),
-                         .approach = each.approach,
-                         .impulse = each.impulse,
-                         .tangential = each.tangential});
-    }
-  }
-
-  Trajectory trajectory;
-  std::vector<std::string> names;
-  std::vector<Impact> impacts;
-};
 
 namespace {
 
@@ -240,78 +208,5 @@ std::vector<double> Run::when(const std::string& statement) const {
 }
 
 std::string Run::hash() const { return data_->trajectory.stateHash(); }
-
-#ifdef CAREEN_RENDER
-namespace {
-
-// Of the process: GL is current to one thread at a time, and the size of a run's pictures stands in the run.
-std::mutex& drawing() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-// Sets the size for as long as it lives.
-class OfSize {
- public:
-  OfSize(PictureSettings& picture, const std::optional<std::array<int, 2>>& size)
-      : picture_(picture), before_(picture) {
-    if (!size) {
-      return;
-    }
-    for (const int side : *size) {
-      if (side < 1 || side > kLargestFilm) {
-        throw Error("found a picture of " + std::to_string((*size)[0]) + "x" + std::to_string((*size)[1]) +
-                    ", expected 1 to " + std::to_string(kLargestFilm) + " px each");
-      }
-    }
-    picture_.width = (*size)[0];
-    picture_.height = (*size)[1];
-  }
-  ~OfSize() { picture_ = before_; }
-  OfSize(const OfSize&) = delete;
-  OfSize& operator=(const OfSize&) = delete;
-
- private:
-  PictureSettings& picture_;
-  PictureSettings before_;
-};
-
-}  // namespace
-
-std::vector<Image> Run::frames(const std::vector<double>& filmTimes,
-                               std::optional<std::array<int, 2>> size) const {
-  const std::scoped_lock alone(drawing());
-  const DefaultFloatEnvironment usual;
-  return translated("", [&] {
-    Trajectory& run = data_->trajectory;
-    const OfSize sized(run.stage.picture, size);
-    FilmPictures pictures(run);
-    const double duration = pictures.duration();
-    for (const double time : filmTimes) {
-      if (!(time >= 0 && time <= duration)) {
-        throw Error("found the moment " + std::to_string(time) + " s, expected one of the film, from 0 to " +
-                    std::to_string(duration) + " s");
-      }
-    }
-    pictures.makeOverlays();
-    pictures.open({});
-    std::vector<Image> images;
-    for (const double time : filmTimes) {
-      Picture drawn = pictures.draw(time);
-      images.push_back({.width = drawn.width, .height = drawn.height, .rgb = std::move(drawn.rgb)});
-    }
-    return images;
-  });
-}
-#else
-std::vector<Image> Run::frames(const std::vector<double>& /*filmTimes*/,
-                               std::optional<std::array<int, 2>> /*size*/) const {
-  throw Error("this build of careen draws nothing (CAREEN_RENDER=OFF)");
-}
-#endif
-
-Image Run::frame(double filmTime, std::optional<std::array<int, 2>> size) const {
-  return frames({filmTime}, size).front();
-}
 
 }  // namespace careen::v1

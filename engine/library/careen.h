@@ -62,8 +62,8 @@ struct BoxPart {
 
 /// How a fixed box or a wall moves by itself; all of it adds up.
 struct Motion {
-  /// [s] and [m] Where its middle is, in place of `position`, or a wall's `point`: straight from point to point, still before the
-  /// first and after the last.
+  /// [s] and [m] Where its middle is, in place of `position`, or a wall's `point`: straight from point to
+  /// point, still before the first and after the last.
   std::vector<std::pair<double, Vector>> path = {};
   Vector velocity = {0, 0, 0};         ///< [m/s] all the time
   Vector angularVelocity = {0, 0, 0};  ///< [rad/s] world frame, all the time
@@ -249,6 +249,31 @@ struct Image {
   std::vector<std::uint8_t> rgb;
 };
 
+/// A film of a run: PNG frames in a folder, and a video of them.
+struct Film {
+  std::filesystem::path folder;
+  std::filesystem::path video = {};             ///< .mp4, .webm …, encoded by ffmpeg; empty: none
+  std::string quality = "good";                 ///< of the video: draft, good or best
+  std::string frames = {};                      ///< such as "0-119,200:2"; empty: all
+  std::optional<std::array<int, 2>> size = {};  ///< [px] width, height; none: the scene's
+  bool alpha = false;                           ///< boxes and their shadows on nothing
+  bool replace = false;                         ///< a film of something else that is in the folder
+  std::optional<int> jobs = {};                 ///< processes; none: one for each core
+};
+
+/// How far a run is from another one of the same scene.
+struct Difference {
+  std::vector<std::string> incomparable;  ///< why they are no runs of one scene; empty if they are
+  bool same = false;                      ///< to the bit
+  std::optional<double> from;             ///< [s] when a state differs first
+  double position = 0;                    ///< [m] of the box that is farthest off, up to the horizon
+  double angle = 0;                       ///< [rad] of the same box
+  std::string box;                        ///< that box
+  double time = 0;                        ///< [s] when
+  std::optional<double> horizon;          ///< [s] when they become unrelated, by chaos; none: never
+  std::string firstImpact;                ///< that differs, in words; empty: none
+};
+
 /// A finished run. Copies share it.
 class Run {
  public:
@@ -276,12 +301,20 @@ class Run {
   /// 0.5" or "rest"; 0 among them if it is from the start. Error if it is no statement about the run.
   std::vector<double> when(const std::string& statement) const;
   std::string hash() const;  ///< of the final states, bit for bit
+  Difference differenceFrom(const Run& other) const;
+  /// A file of another program, by its name's end, as `careen export` writes it: .glb (glTF), .xml (MJCF),
+  /// .npz or .csv, with poses at every so many seconds in a table. Error for another name, or what cannot be
+  /// written.
+  void exportTo(const std::filesystem::path& path, double every = 1.0 / 60) const;
 
   /// The pictures at film times [s], as `careen render --still` draws them, overlays included; film time is
   /// scene time unless the scene says otherwise. Without a size, that of the scene. Error if there is no GL.
   std::vector<Image> frames(const std::vector<double>& filmTimes,
                             std::optional<std::array<int, 2>> size = std::nullopt) const;
   Image frame(double filmTime, std::optional<std::array<int, 2>> size = std::nullopt) const;
+  /// The film that `careen render` makes, frame by frame the same bytes. Its processes are forked: Error if
+  /// this process has drawn a frame itself, whose GL they would not have.
+  void film(const Film& film) const;
 
  private:
   struct Data;
@@ -290,5 +323,18 @@ class Run {
 };
 
 inline Run simulate(const Scene& scene) { return Run(scene); }
+
+/// The table of a sweep: one row for each run of a family.
+struct SweepTable {
+  std::filesystem::path path;  ///< table.csv; table.npz beside it
+  long rows = 0;
+  long broken = 0;  ///< of runs that break a promise of their method
+};
+
+/// Simulates runs `first` to `last` of a family, a scene whose numbers may be distributions, as `careen
+/// sweep` does, in forked processes; 0 jobs: one for each core. SceneError if the family is invalid, Error if
+/// the folder holds another sweep.
+SweepTable sweep(const std::filesystem::path& family, const std::filesystem::path& folder, long first,
+                 long last, int jobs = 0);
 
 }  // namespace careen::v1

@@ -45,6 +45,7 @@ struct PictureSettings {
   Shutter shutter;
   OverlaySet overlays;
   LightParts light = LightParts::all();  ///< those the look has; a look may have fewer
+  bool alpha = false;                    ///< boxes and their shadows on nothing, not on their stage
 
   double aspect() const { return static_cast<double>(width) / height; }
 };

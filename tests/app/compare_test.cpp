@@ -70,12 +70,12 @@ TEST_F(Compare, scriptsBesideTheProgramAreIgnored) {
 
 TEST_F(Compare, everyNumberOfAThresholdCanBeGiven) {
   const Ended lenient = compare(
-      {kGallery + "wall.png", kGallery + "stack.png", "--threshold", "exact", "--failpercent", "100"});
+      {kGallery + "wall.png", kGallery + "stack.png", "--threshold", "exact", "--allow", "failpercent=100"});
   EXPECT_EQ(lenient.exitCode, 0);
-  EXPECT_TRUE(lenient.out.starts_with("same, with a warning: same picture (exact, --failpercent 100)\n"))
+  EXPECT_TRUE(lenient.out.starts_with("same, with a warning: same picture (exact, failpercent=100)\n"))
       << lenient.out;
   const Ended strict = compare({kGallery + "wall.png", kGallery + "stack.png", "--threshold", "exact",
-                                "--failpercent", "100", "--hardfail", "0.5"});
+                                "--allow", "failpercent=100,hardfail=0.5"});
   EXPECT_EQ(strict.exitCode, 1);
   EXPECT_NE(strict.out.find("at most 0.5 is allowed"), std::string::npos) << strict.out;
 }
@@ -147,8 +147,11 @@ TEST_F(Compare, badInputIsNamed) {
             "found a picture and a folder, expected two pictures, two folders or two runs"},
            {{"folder", "folder"}, "folder: found no PNG files"},
            {{picture, picture, "--threshold", "close"}, "--threshold: found 'close', expected one of"},
-           {{picture, picture, "--fail", "-1"}, "--fail: found -1, expected 0 to 1"},
-           {{picture, picture, "--fail", "nan"}, "--fail: found nan, expected 0 to 1"},
+           {{picture, picture, "--allow", "fail=-1"}, "--allow: found 'fail=-1', expected fail=0 to 1"},
+           {{picture, picture, "--allow", "fail=nan"}, "--allow: found 'fail=nan', expected fail=0 to 1"},
+           {{picture, picture, "--allow", "fail"}, "--allow: found 'fail', expected fail=0 to 1"},
+           {{picture, picture, "--allow", "heat=1"},
+            "--allow: found 'heat=1', expected NAME=NUMBER, with one of: fail,"},
            {{picture, picture, "--motion", "a bit"}, "--motion: found 'a bit', expected same, any, or"},
            {{picture, picture, "--until", "0"}, "--until: found 0, expected more than 0 s"},
            {{picture, picture, "--threads", "0"}, "--threads: found 0, expected 1 to 256"}}) {

@@ -35,6 +35,25 @@ class RenderOtherRuns : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(RenderOtherRuns, havePlotsBelow) {
+  const Ended ended = careen({"render", "exact.careen", "--beside", "old.careen", "--plot", "distance",
+                              "--out", "film", "--video", "film.mkv"});
+  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  EXPECT_NE(ended.out.find("128x62"), std::string::npos) << ended.out;
+  const Ended other =
+      careen({"render", "exact.careen", "--beside", "old.careen", "--out", "film", "--resume"});
+  EXPECT_EQ(other.exitCode, 2);
+  EXPECT_NE(other.err.find("plot distance there, none now"), std::string::npos) << other.err;
+  EXPECT_EQ(careen({"render", "exact.careen", "--plot", "energy", "--still", "0.3"}).exitCode, 0);
+  const Ended alone = careen({"render", "exact.careen", "--plot", "distance", "--still", "0.3"});
+  EXPECT_EQ(alone.exitCode, 2);
+  EXPECT_NE(alone.err.find("--plot: found distance, expected --beside"), std::string::npos) << alone.err;
+  const Ended unknown = careen({"render", "exact.careen", "--plot", "heat"});
+  EXPECT_NE(unknown.err.find("--plot: found 'heat', expected one of: energy, speed, distance"),
+            std::string::npos)
+      << unknown.err;
+}
+
 TEST_F(RenderOtherRuns, areBesideItInOneFilm) {
   const std::vector<std::string> both = {"render",     "exact.careen", "--beside",
                                          "old.careen", "--names",      "exact,1997"};

@@ -168,7 +168,7 @@ TEST_F(RenderReference, badReferenceOrOptionIsToldBeforeAnythingIsSimulated) {
       {"empty", {}, "--ref: empty has no film.json"},
       {"frameless", {}, "--ref: frameless has none of the frames"},
       {"ref", {"--threshold", "nearly"}, "--threshold: "},
-      {"ref", {"--fail", "2"}, "--fail: found 2"},
+      {"ref", {"--allow", "fail=2"}, "--allow: found 'fail=2'"},
       {"ref", {"--motion", "0.05"}, "--motion: found 0.05 and --ref"},
       {"ref",
        {"--ignore", "70,0,11,1"},
@@ -249,7 +249,7 @@ TEST_F(RenderReference, approvalThatFailsLeavesTheOldFilm) {
 }
 
 TEST_F(RenderReference, optionsOfComparingNeedOne) {
-  EXPECT_EQ(careen({"scene.json", "--fail", "0.1", "--out", "out"}).exitCode, 2);
+  EXPECT_EQ(careen({"scene.json", "--allow", "fail=0.1", "--out", "out"}).exitCode, 2);
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 

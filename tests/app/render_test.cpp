@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/system/release.h"
+#include "image/png.h"
 #include "support/copied_program.h"
 #include "support/environment_variable.h"
 #include "support/film_command.h"
@@ -252,6 +253,22 @@ TEST_F(Render, looksAndAntialiasingOfTheCommandLineTakeTheScenesPlace) {
   const Ended other = careen({"render", "scene.json", "--out", "clay", "--resume"});
   EXPECT_EQ(other.exitCode, 2);
   EXPECT_NE(other.err.find("look clay there, studio now"), std::string::npos) << other.err;
+}
+
+TEST_F(Render, takesBoxesOffTheirStage) {
+  EXPECT_EQ(careen({"render", "scene.json", "--out", "cut", "--alpha", "--video", "cut.webm"}).exitCode, 0);
+  EXPECT_FALSE(readPng(folder_ / "cut/000000.png").alpha.empty());
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "cut.webm"));
+  const Ended again = careen({"render", "scene.json", "--ref", "cut", "--out", "differing"});
+  EXPECT_EQ(again.exitCode, 0) << again.out << again.err;
+  const Ended mixed = careen({"render", "scene.json", "--out", "cut", "--resume"});
+  EXPECT_EQ(mixed.exitCode, 2);
+  EXPECT_NE(mixed.err.find("alpha yes there, no now"), std::string::npos) << mixed.err;
+  const Ended video = careen({"render", "scene.json", "--out", "other", "--alpha", "--video", "cut.mp4"});
+  EXPECT_EQ(video.exitCode, 2);
+  EXPECT_NE(video.err.find("cut.mp4: found .mp4, which has no alpha"), std::string::npos) << video.err;
+  EXPECT_EQ(careen({"render", "scene.json", "--alpha", "--still", "0", "--out", "still.png"}).exitCode, 0);
+  EXPECT_EQ(readPng(folder_ / "still.png").rgb, readPng(folder_ / "cut/000000.png").rgb);
 }
 
 // Whether this release of the system has OSMesa: Mesa gave it up in 25.1.

@@ -22,7 +22,7 @@ Comparison threeFrames() {
   comparison.expected = "reference";
   comparison.actual = "film";
   comparison.program = "careen 1.2.3";
-  comparison.toleranceName = "exact, --fail 0.5";
+  comparison.toleranceName = "exact, fail=0.5";
   comparison.tolerance = toleranceOf("exact");
   comparison.tolerance.fail = 0.5;
   comparison.verdict = Verdict::kDifferent;
@@ -68,7 +68,7 @@ TEST(ReportJson, hasEveryFieldOfTheComparison) {
   EXPECT_EQ(report.at("actual"), "film");
   EXPECT_EQ(report.at("verdict"), "different");
   EXPECT_EQ(report.at("headline"), "other picture in 2 of 3 frames");
-  EXPECT_EQ(report.at("tolerance").at("name"), "exact, --fail 0.5");
+  EXPECT_EQ(report.at("tolerance").at("name"), "exact, fail=0.5");
   EXPECT_EQ(report.at("tolerance").at("fail"), 0.5);
   EXPECT_EQ(report.at("facts"),
             Json::parse(R"([{"name": "renderer", "expected": "one", "actual": "other"}])"));

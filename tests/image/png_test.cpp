@@ -220,6 +220,21 @@ TEST(Png, missingFileAndUnwritablePlaceAreErrors) {
   EXPECT_THROW(encodePng(Picture{.width = 2, .height = 2, .rgb = {1, 2, 3}}), InputError);
 }
 
+TEST(Png, keepsAlpha) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {3, 2}, {17, 5}, {640, 360}}) {
+    Picture picture = shadedTiles(width, height);
+    for (std::size_t i = 0; i < picture.rgb.size() / 3; ++i) {
+      picture.alpha.push_back(static_cast<std::uint8_t>(7 * i + i / 300));
+    }
+    const std::string bytes = encodePng(picture);
+    const Picture back = decodePng(bytes, "frame.png");
+    EXPECT_EQ(back.rgb, picture.rgb);
+    EXPECT_EQ(back.alpha, picture.alpha);
+    EXPECT_EQ(decodeDeepPng(bytes, "").samples8, rgbaOf(picture)) << "by libpng";
+  }
+  EXPECT_THROW(encodePng({.width = 1, .height = 1, .rgb = {1, 2, 3}, .alpha = {4, 5}}), InputError);
+}
+
 TEST(Png, oneColourMayBeTransparent) {
   const Picture picture{.width = 2, .height = 1, .rgb = {0, 0, 0, 0, 200, 1}};
   const DeepPicture clear = decodeDeepPng(encodePng(picture, PngColor{0, 200, 1}), "");

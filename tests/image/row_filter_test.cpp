@@ -23,22 +23,22 @@ int paethPredictor(int a, int b, int c) {
   return pb <= pc ? b : c;
 }
 
-Bytes bySpecification(const Bytes& row, const Bytes& above) {
+Bytes bySpecification(const Bytes& row, const Bytes& above, std::size_t pixelBytes) {
   Bytes difference;
   for (std::size_t i = 0; i < row.size(); ++i) {
-    const int left = i < 3 ? 0 : row[i - 3];
-    const int aboveLeft = i < 3 ? 0 : above[i - 3];
+    const int left = i < pixelBytes ? 0 : row[i - pixelBytes];
+    const int aboveLeft = i < pixelBytes ? 0 : above[i - pixelBytes];
     difference.push_back(static_cast<std::uint8_t>(row[i] - paethPredictor(left, above[i], aboveLeft)));
   }
   return difference;
 }
 
-void expectAsSpecified(const Bytes& row, const Bytes& above) {
-  const Bytes expected = bySpecification(row, above);
+void expectAsSpecified(const Bytes& row, const Bytes& above, std::size_t pixelBytes = 3) {
+  const Bytes expected = bySpecification(row, above, pixelBytes);
   Bytes chosen(row.size());
   Bytes plain(row.size());
-  subtractPaeth(row, above, chosen);
-  subtractPaethBaseline(row, above, plain);
+  subtractPaeth(row, above, pixelBytes, chosen);
+  subtractPaethBaseline(row, above, pixelBytes, plain);
   ASSERT_EQ(chosen, expected) << row.size() << " bytes";
   ASSERT_EQ(plain, expected) << row.size() << " bytes";
 }
@@ -65,15 +65,17 @@ TEST(RowFilter, isThatOfTheSpecificationForAllNeighboursThereAre) {
 
 TEST(RowFilter, isThatOfTheSpecificationForRowsOfAnyWidth) {
   std::mt19937 random(5);
-  for (std::size_t width = 0; width <= 70; ++width) {
-    Bytes row(3 * width);
-    Bytes above(3 * width);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      row[i] = static_cast<std::uint8_t>(random());
-      above[i] = static_cast<std::uint8_t>(random());
+  for (const std::size_t pixelBytes : {3U, 4U}) {
+    for (std::size_t width = 0; width <= 70; ++width) {
+      Bytes row(pixelBytes * width);
+      Bytes above(row.size());
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        row[i] = static_cast<std::uint8_t>(random());
+        above[i] = static_cast<std::uint8_t>(random());
+      }
+      expectAsSpecified(row, above, pixelBytes);
+      expectAsSpecified(row, Bytes(row.size()), pixelBytes);
     }
-    expectAsSpecified(row, above);
-    expectAsSpecified(row, Bytes(3 * width));
   }
 }
 

@@ -35,6 +35,8 @@ TEST(VideoFormat, suffixChoosesTheCodecUnlessOneIsNamed) {
   EXPECT_TRUE(has(settingsOf("film.webm"), "libvpx-vp9"));
   EXPECT_TRUE(has(settingsOf("film.webp"), "libwebp_anim"));
   EXPECT_TRUE(has(settingsOf("film.gif"), "gif"));
+  EXPECT_TRUE(has(settingsOf("film.mov"), "prores_ks"));
+  EXPECT_TRUE(has(settingsOf("film.apng"), "apng"));
   EXPECT_TRUE(has(settingsOf("film.mp4", "av1"), "libsvtav1"));
   EXPECT_TRUE(has(settingsOf("film.mp4", "vp9"), "libvpx-vp9"));
   EXPECT_TRUE(has(settingsOf("film.webm", "av1"), "libsvtav1"));
@@ -43,11 +45,14 @@ TEST(VideoFormat, suffixChoosesTheCodecUnlessOneIsNamed) {
 TEST(VideoFormat, whatCannotBeMadeIsNamedWithWhatCan) {
   EXPECT_EQ(
       errorOf(settingsOf("film.avi")),
-      "film.avi: found a video's name that ends in '.avi', expected one of: .mp4, .mkv, .webm, .webp, .gif");
-  EXPECT_EQ(errorOf(settingsOf("film")),
-            "film: found a video's name that ends in '', expected one of: .mp4, .mkv, .webm, .webp, .gif");
+      "film.avi: found a video's name that ends in '.avi', expected one of: .mp4, .mkv, .mov, .webm, .webp, "
+      ".gif, .apng");
+  EXPECT_EQ(
+      errorOf(settingsOf("film")),
+      "film: found a video's name that ends in '', expected one of: .mp4, .mkv, .mov, .webm, .webp, .gif, "
+      ".apng");
   EXPECT_EQ(errorOf(settingsOf("film.webm", "h264")),
-            "film.webm: found codec 'h264', expected for .webm one of: vp9, av1");
+            "film.webm: found codec 'h264', expected for .webm one of: vp9, vp9-444, av1");
   EXPECT_EQ(errorOf(settingsOf("film.gif", "av1")),
             "film.gif: found codec 'av1', expected for .gif one of: gif");
   EXPECT_EQ(errorOf(settingsOf("film.mp4")), "");
@@ -87,7 +92,37 @@ TEST(VideoFormat, soundGoesWhereThereIsAPlaceForIt) {
   EXPECT_TRUE(hasWord(commandOf(settings), "libopus"));
   settings.path = "film.webp";
   EXPECT_EQ(errorOf(settings),
-            "film.webp: found .webp, which has no sound, expected .mp4, .mkv or .webm for a film with sound");
+            "film.webp: found .webp, which has no sound, expected one of: .mp4, .mkv, .mov, .webm");
+}
+
+TEST(VideoFormat, alphaGoesWhereThereIsAPlaceForIt) {
+  VideoSettings settings = settingsOf("film.mov");
+  EXPECT_TRUE(has(settings, "rgb24"));
+  settings.alpha = true;
+  for (const char* path : {"film.mov", "film.webm", "film.webp", "film.apng"}) {
+    settings.path = path;
+    EXPECT_EQ(errorOf(settings), "") << path;
+    EXPECT_TRUE(has(settings, "rgba")) << path;
+    EXPECT_FALSE(has(settings, "rgb24")) << path;
+  }
+  settings.path = "film.gif";
+  EXPECT_EQ(errorOf(settings),
+            "film.gif: found .gif, which has no alpha, expected one of: .mkv, .mov, .webm, .webp, .apng");
+  settings.path = "film.mkv";
+  EXPECT_EQ(errorOf(settings), "film.mkv: found .mkv by codec 'h264', which has no alpha, expected vp9");
+  settings.codec = "vp9";
+  EXPECT_EQ(errorOf(settings), "");
+  settings.path = "film.mov";
+  settings.codec = "h264";
+  EXPECT_EQ(errorOf(settings), "film.mov: found .mov by codec 'h264', which has no alpha, expected prores");
+}
+
+TEST(VideoFormat, onlyHalvedChromaNeedsAnEvenSize) {
+  EXPECT_TRUE(needsEvenSize(settingsOf("film.mp4")));
+  EXPECT_FALSE(needsEvenSize(settingsOf("film.mp4", "h264-444")));
+  EXPECT_FALSE(needsEvenSize(settingsOf("film.mov")));
+  EXPECT_TRUE(needsEvenSize(settingsOf("film.mov", "h264")));
+  EXPECT_FALSE(needsEvenSize(settingsOf("film.apng")));
 }
 
 // Else gradients in the dark show blocks: on the walls of careen.json, edges of 8 px are 1.7 times as strong
@@ -103,7 +138,7 @@ TEST(VideoFormat, flatAndDarkPartsGetTheirBits) {
 
 TEST(VideoFormat, qualitiesHaveNamesAndDiffer) {
   EXPECT_THROW(videoQualityNamed("ultra"), InputError);
-  for (const char* name : {"film.mp4", "film.webm", "film.webp", "film.gif"}) {
+  for (const char* name : {"film.mp4", "film.mov", "film.webm", "film.webp", "film.gif", "film.apng"}) {
     VideoSettings settings = settingsOf(name);
     std::vector<std::vector<std::string>> commands;
     for (const char* quality : {"draft", "good", "best"}) {

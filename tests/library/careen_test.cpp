@@ -10,7 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "image/png.h"
 #include "support/process.h"
 
 namespace careen::v1 {
@@ -432,40 +431,6 @@ TEST_F(Library, showsNothingButItsHeader) {
   }
   EXPECT_GT(seen, 20) << symbols.err;
 }
-
-#ifdef CAREEN_RENDER
-TEST_F(Library, drawsTheBytesOfTheProgram) {
-  const std::string file = kScenes / "careen.json";
-  const v1::Run run = simulate(Scene::read(file));
-  const std::vector<Image> images = run.frames({0.3, 2.5}, std::array{160, 90});
-  for (const auto& [time, image] : {std::pair{"0.3", images.at(0)}, std::pair{"2.5", images.at(1)}}) {
-    program({"render", file, "--still", time, "--size", "160x90", "--out", "still.png"});
-    const Picture still = readPng(folder_ / "still.png");
-    EXPECT_EQ(image.width, 160);
-    EXPECT_EQ(image.height, 90);
-    EXPECT_TRUE(image.rgb == still.rgb) << time;
-  }
-  EXPECT_EQ(run.frame(0).width, 1280);  // the scene's own size, again
-  EXPECT_THROW(static_cast<void>(run.frame(99)), Error);
-  EXPECT_THROW(static_cast<void>(run.frame(0, std::array{0, 90})), Error);
-}
-
-TEST_F(Library, drawsFromSeveralThreads) {
-  const v1::Run run = simulate(Scene::read(kScenes / "careen.json"));
-  const Image expected = run.frame(1, std::array{64, 36});
-  std::vector<Image> images(4);
-  std::vector<std::thread> threads;
-  for (Image& image : images) {
-    threads.emplace_back([&] { image = run.frame(1, std::array{64, 36}); });
-  }
-  for (std::thread& thread : threads) {
-    thread.join();
-  }
-  for (const Image& image : images) {
-    EXPECT_TRUE(image.rgb == expected.rgb);
-  }
-}
-#endif
 
 }  // namespace
 }  // namespace careen::v1

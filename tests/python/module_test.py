@@ -1,7 +1,8 @@
 """The Python module beside the program: the same numbers and pictures, to the bit.
 
-    module_test.py CAREEN SCENES
+    module_test.py CAREEN SCENES STUBS
 """
+import ast
 import pathlib
 import subprocess
 import sys
@@ -14,7 +15,7 @@ import numpy
 
 import careen
 
-PROGRAM, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
+PROGRAM, SCENES, STUBS = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 NAMES = ("careen", "zeno", "stack")
 
 
@@ -132,6 +133,38 @@ class Module(unittest.TestCase):
         for time_of in (-1e-9, run.duration + 1e-9, float("nan")):
             self.assertRaises(careen.Error, run.states, [0, time_of])
 
+    def test_films_files_and_sweeps_are_those_of_the_program(self):
+        code = """
+import careen, sys
+run = careen.simulate(sys.argv[1])
+run.film("own", frames="0-4:2", size=(64, 36), alpha=True)
+run.export("own.csv", 0.1)
+"""  # in a process of its own: after frame() there is none
+        scene = SCENES / "careen.json"
+        subprocess.run([sys.executable, "-c", code, scene], cwd=self.folder, check=True)
+        program(self.folder, "render", scene, "--alpha", "--frames", "0-4:2", "--size", "64x36", "--out", "theirs")
+        program(self.folder, "export", scene, "-o", "theirs.csv", "--every", "0.1")
+        for name in ("{}.csv", "{}/000000.png", "{}/000002.png", "{}/000004.png"):
+            self.assertEqual((self.folder / name.format("own")).read_bytes(),
+                             (self.folder / name.format("theirs")).read_bytes(), name)
+        family = self.folder / "family.json"
+        family.write_text('{"careen": 1, "duration": 1, "boxes": [{"half_extents": [1, 1, 1], "mass": {"uniform": [1, 2]}}]}')
+        table, rows, broken = careen.sweep(family, self.folder / "sweep", runs=(0, 4), jobs=1)
+        self.assertEqual((rows, broken), (5, 0))
+        program(self.folder, "sweep", family, "--runs", "0-4", "--out", "other")
+        self.assertEqual(table.read_bytes(), (self.folder / "other/table.csv").read_bytes())
+        run = careen.simulate(scene)
+        self.assertTrue(run.difference_from(careen.simulate(scene))["same"])
+        self.assertIsNotNone(run.difference_from(careen.simulate(scene, method="listing1"))["from"])
+
+    def test_stubs_name_all_that_there_is(self):
+        stubs = ast.parse((pathlib.Path(STUBS) / "__init__.pyi").read_text())
+        named = {node.name: node for node in stubs.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+        there = {name for name in dir(careen) if not name.startswith("_")}
+        self.assertEqual({name for name in named if not name.startswith("_")}, there)
+        methods = {node.name for node in named["Run"].body if isinstance(node, ast.FunctionDef)}
+        self.assertEqual(methods, {name for name in dir(careen.Run) if not name.startswith("_")})
+
     def test_pictures_are_those_of_the_program(self):
         scene = SCENES / "careen.json"
         program(self.folder, "render", scene, "--still", "1.5", "--size", "160x90", "--out", "still.png")
@@ -206,7 +239,7 @@ class Module(unittest.TestCase):
 
     def test_everything_says_what_it_is(self):
         for thing in (careen, careen.simulate, careen.read_run, careen.Run, careen.SceneError, careen.Run.states,
-                      careen.Run.impacts, careen.Run.audit, careen.Run.frame, careen.Run.save, careen.Run.hash):
+                      careen.Run.impacts, careen.Run.audit, careen.Run.frame, careen.Run.film, careen.Run.save, careen.Run.hash, careen.sweep):
             self.assertGreater(len(thing.__doc__), 15, thing)
         self.assertEqual("careen " + careen.__version__, program(self.folder, "--version").strip())
 

@@ -28,7 +28,9 @@ inline const std::map<std::string, Names> kMayInclude = {
     {"sweep", {"scene", "trajectory", "audit", "question", "physics", "stage", "core"}},
     {"exchange", {"scene", "view", "trajectory", "physics", "stage", "core"}},
     {"render", {"view", "trajectory", "film", "stage", "image", "core"}},
-    {"library", {"render", "scene", "trajectory", "audit", "question", "stage", "physics", "core"}},
+    {"library",
+     {"render", "sweep", "compare", "exchange", "scene", "trajectory", "audit", "question", "film", "image",
+      "stage", "physics", "core"}},
 };
 
 // Rooms of a folder, and whom each may include among them; "" is what lies in the folder itself.

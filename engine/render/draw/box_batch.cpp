@@ -30,29 +30,19 @@ BoxBatch::Mesh::Mesh(const Gl& gl, std::initializer_list<Attribute> attributes)
 
 BoxBatch::BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const LightShaders& light)
     : gl_(gl),
-      neighbors_(light.neighbors),
-      hasLight_(light.light),
+      shaders_(shaders),
+      light_(light),
       lit_(gl, kFaceAttributes),
       dark_(gl, kFaceAttributes),
       shaded_(gl, kFaceAttributes),
       shadows_(gl, kShadowAttributes) {
-  const char* const openness = light.neighbors ? "neighbors.vert" : "open_everywhere.vert";
-  const auto program = [&](const char* write) {
-    const unsigned linked =
-        linkProgram(gl, shaders, with({"box.vert", openness, "box.frag", write}, light.common));
-    if (light.neighbors) {
-      gl.UseProgram(linked);
-      gl.Uniform1i(gl.GetUniformLocation(linked, "neighbors"), kNeighborUnit);
-    }
-    return linked;
-  };
-  litProgram_ = program("write_lit.frag");
+  litProgram_ = programThat("write_lit.frag");
   depthProgram_ = linkProgram(gl, shaders, {"depth.vert", "black.frag"});
   if (light.light) {
-    darkProgram_ = program("write_dark.frag");
+    darkProgram_ = programThat("write_dark.frag");
   }
   if (light.shadows) {
-    shadedProgram_ = program("write_shaded.frag");
+    shadedProgram_ = programThat("write_shaded.frag");
     shadowProgram_ = linkProgram(gl, shaders, {"shadow.vert", "shadow.frag"});
   }
   if (light.occlusion) {
@@ -69,14 +59,25 @@ BoxBatch::BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const Lig
   }
 }
 
+unsigned BoxBatch::programThat(const char* write) const {
+  const char* const openness = light_.neighbors ? "neighbors.vert" : "open_everywhere.vert";
+  const unsigned linked =
+      linkProgram(gl_, shaders_, with({"box.vert", openness, "box.frag", write}, light_.common));
+  if (light_.neighbors) {
+    gl_.UseProgram(linked);
+    gl_.Uniform1i(gl_.GetUniformLocation(linked, "neighbors"), kNeighborUnit);
+  }
+  return linked;
+}
+
 void BoxBatch::place(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces,
                      const FaceShadows& shadows, const FaceNeighbors& neighbors, const Vec3& towardsLight,
                      const Vec3& eye) {
   FaceRecords records({.boxes = boxes,
                        .faces = faces,
                        .shadows = shadows,
-                       .neighbors = neighbors_ ? &neighbors : nullptr,
-                       .towardsLight = hasLight_ ? std::optional(towardsLight) : std::nullopt,
+                       .neighbors = light_.neighbors ? &neighbors : nullptr,
+                       .towardsLight = light_.light ? std::optional(towardsLight) : std::nullopt,
                        .eye = eye});
   records.add();
   const auto fill = [&](Mesh& mesh, const VertexRecords& of) {
@@ -95,7 +96,7 @@ void BoxBatch::place(std::span<const DrawnBox> boxes, std::span<const DrawnFace>
   fill(dark_, records.dark);
   fill(shaded_, records.shaded);
   fill(shadows_, records.cast);
-  if (neighbors_) {
+  if (light_.neighbors) {
     fillNeighbors(neighborTexels(boxes, neighbors, eye));
   }
 }
@@ -179,6 +180,16 @@ void BoxBatch::drawDepth(std::size_t layer) const {
     drawOutlines(*mesh, layer);
   }
   gl_.Disable(GL_BLEND);
+}
+
+void BoxBatch::drawCoverage(std::size_t layer) {
+  if (coverageProgram_ == 0) {
+    coverageProgram_ = programThat("write_white.frag");
+  }
+  gl_.UseProgram(coverageProgram_);
+  for (const Mesh* const mesh : {&lit_, &dark_, &shaded_}) {
+    drawTriangles(*mesh, layer);
+  }
 }
 
 void BoxBatch::drawShrunk(double angle) const {

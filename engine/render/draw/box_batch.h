@@ -49,6 +49,8 @@ class BoxBatch {
   void drawShaded(std::size_t layer) const;
   /// Depth of all faces as it is, for the layers that follow.
   void drawDepth(std::size_t layer) const;
+  /// All faces in white.
+  void drawCoverage(std::size_t layer);
   /// Depth of all faces of boxes shrunk by this angle [rad].
   void drawShrunk(double angle) const;
 
@@ -66,10 +68,11 @@ class BoxBatch {
   void draw(const Mesh& mesh, std::size_t from, std::size_t to) const;
   void moveBehind(std::size_t steps) const;
   void fillNeighbors(std::vector<float> texels) const;
+  unsigned programThat(const char* write) const;
 
   const Gl& gl_;
-  bool neighbors_;
-  bool hasLight_;
+  std::filesystem::path shaders_;
+  LightShaders light_;
   Mesh lit_;
   Mesh dark_;
   Mesh shaded_;
@@ -80,6 +83,7 @@ class BoxBatch {
   unsigned shrunkProgram_ = 0;
   unsigned shadedProgram_ = 0;
   unsigned shadowProgram_ = 0;
+  unsigned coverageProgram_ = 0;  // made when first used
   int shrinkPlace_ = 0;
   unsigned neighborTexture_ = 0;
 };

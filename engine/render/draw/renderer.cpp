@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/error.h"
@@ -68,6 +69,9 @@ double leastOcclusion(std::size_t boxes) {
 // [1] Likewise, of what keeps light from a box.
 double leastOnBoxes(std::size_t boxes) { return std::min(leastOcclusion(boxes), 0.008); }
 
+// Where boxes cast their shadows.
+enum class Cast { kEverywhere, kOnBoxes };
+
 // [px] Thinner springs would be drawn with gaps.
 constexpr double kThinnest = 1.5;
 void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAngle) {
@@ -87,8 +91,17 @@ struct Renderer::Parts {
   void look(const Shot& shot);
   void place(std::span<const Pose> poses, const Camera& from);
   void drawOcclusion();
-  void drawShaded(std::size_t layer);
-  void drawPicture();
+  void gatherShadows() const;
+  void takeByShadows() const;
+  void castOnSurfaces() const;
+  void drawShaded(std::size_t layer, Cast cast);
+  void drawBoxes(Cast cast);
+  void drawStage(const PictureCells& shaded, const PictureCells& occluded);
+  void drawBlack();
+  void drawBackground(unsigned program) const;
+  void prepare(const Shot& shot);
+  template <class Draw>
+  Picture drawn(const Draw& draw);
   void drawOver(Picture& picture, const OverlayShapes& shapes);
   void upload() const;
 
@@ -110,13 +123,14 @@ struct Renderer::Parts {
   Gl gl;
   Canvas canvas;
   std::filesystem::path shaders;
-  std::optional<OverlayBatch> overlays;  // created for the first picture with overlays
+  std::map<std::pair<int, int>, OverlayBatch> overlays;  // by size, created for the first picture of it
   BoxBatch boxes;
   SurfaceBatch surfaces;
   std::optional<ShadowBatch> shadowBatch;
   std::optional<OcclusionMap> occlusionMap;
   unsigned backgroundArray;
   unsigned backgroundProgram;
+  unsigned blackProgram = 0;  // made when first used
   unsigned blockBuffer = 0;
   FrameBlock block;
   DrawFigures figures;
@@ -277,63 +291,122 @@ void Renderer::Parts::drawOcclusion() {
 // The part of the light that shadows keep off is gathered in the picture itself, which is black before, for
 // every sample of a pixel, each of what the others leave; then it takes the colours in full light and in full
 // shadow by that part.
-void Renderer::Parts::drawShaded(std::size_t layer) {
-  const bool isLast = layer + 1 == boxes.layers();
-  if (boxes.hasShaded()) {
-    boxes.drawShadedDepth(layer);
-  }
-  if (isLast && mayOverlap(stage)) {
-    surfaces.drawDepth();
-  }
+void Renderer::Parts::gatherShadows() const {
   gl.Enable(GL_BLEND);
   gl.BlendFuncSeparate(GL_ONE_MINUS_DST_COLOR, GL_ONE, GL_ONE, GL_ONE);
   gl.DepthMask(GL_FALSE);
-  boxes.drawShadows(layer);
-  if (isLast) {
-    gl.Disable(GL_CULL_FACE);
-    gl.Enable(GL_POLYGON_OFFSET_FILL);
-    gl.PolygonOffset(kSunkSlopes, kSunkSteps);
-    shadowBatch->draw();
-    gl.Disable(GL_POLYGON_OFFSET_FILL);
-    gl.Enable(GL_CULL_FACE);
-  }
+}
+
+void Renderer::Parts::takeByShadows() const {
   gl.DepthMask(GL_TRUE);
   gl.BlendFuncSeparate(GL_ONE_MINUS_DST_COLOR, GL_SRC1_COLOR, GL_ONE, GL_ZERO);
+}
+
+void Renderer::Parts::castOnSurfaces() const {
+  gl.Disable(GL_CULL_FACE);
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
+  shadowBatch->draw();
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+  gl.Enable(GL_CULL_FACE);
+}
+
+void Renderer::Parts::drawShaded(std::size_t layer, Cast cast) {
+  const bool castsOnSurfaces = layer + 1 == boxes.layers() && cast == Cast::kEverywhere;
+  if (boxes.hasShaded()) {
+    boxes.drawShadedDepth(layer);
+  }
+  if (castsOnSurfaces && mayOverlap(stage)) {
+    surfaces.drawDepth();
+  }
+  gatherShadows();
+  boxes.drawShadows(layer);
+  if (castsOnSurfaces) {
+    castOnSurfaces();
+  }
+  takeByShadows();
   boxes.drawShaded(layer);
   gl.Disable(GL_BLEND);
   ++figures.shadowPasses;
 }
 
-void Renderer::Parts::drawPicture() {
-  canvas.begin();
-  if (occlusionMap) {
-    occlusionMap->bind();
-  }
+void Renderer::Parts::drawBoxes(Cast cast) {
   for (std::size_t layer = 0; layer < boxes.layers(); ++layer) {
     boxes.drawUnshaded(layer);
     if (shadows) {
-      drawShaded(layer);
+      drawShaded(layer, cast);
     }
     if (layer + 1 < boxes.layers()) {
       boxes.drawDepth(layer);
     }
   }
-  gl.Enable(GL_POLYGON_OFFSET_FILL);
-  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
-  surfaces.draw(shadedCells, occludedCells, canvas.drawnWidth(), canvas.drawnHeight());
-  gl.Disable(GL_POLYGON_OFFSET_FILL);
-  gl.UseProgram(backgroundProgram);
+}
+
+void Renderer::Parts::drawBackground(unsigned program) const {
+  gl.UseProgram(program);
   gl.BindVertexArray(backgroundArray);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::Parts::drawStage(const PictureCells& shaded, const PictureCells& occluded) {
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
+  surfaces.draw(shaded, occluded, canvas.drawnWidth(), canvas.drawnHeight());
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+  drawBackground(backgroundProgram);
   surfaces.drawGlass();
+}
+
+// Surfaces that hide boxes, and all that is behind.
+void Renderer::Parts::drawBlack() {
+  if (blackProgram == 0) {
+    blackProgram = linkProgram(gl, shaders, {"background.vert", "background.frag", "write_black.frag"});
+  }
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
+  surfaces.drawBlack();
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+  drawBackground(blackProgram);
+}
+
+// All but the drawing of the picture itself.
+void Renderer::Parts::prepare(const Shot& shot) {
+  const std::size_t poses = shot.poses.size();
+  const std::size_t bodies = world.bodies.size();
+  if (bodies == 0 ? poses != 0 : poses == 0 || poses % bodies != 0) {
+    throw InputError("drawing: found " + std::to_string(poses) + " poses, expected one for each of " +
+                     std::to_string(bodies) + " boxes, or so many for each of several moments");
+  }
+  const Clock::time_point begun = Clock::now();
+  context->makeCurrent();
+  look(shot);
+  place(shot.poses, shot.camera);
+  upload();
+  if (occlusionMap) {
+    drawOcclusion();
+  }
+  figures.drawSeconds += secondsSince(begun);
+}
+
+template <class Draw>
+Picture Renderer::Parts::drawn(const Draw& draw) {
+  const Clock::time_point begun = Clock::now();
+  canvas.begin();
+  if (occlusionMap) {
+    occlusionMap->bind();
+  }
+  draw();
   canvas.finish();
+  figures.drawSeconds += secondsSince(begun);
+  const Clock::time_point drawnAt = Clock::now();
+  Picture picture = canvas.read();
+  figures.readSeconds += secondsSince(drawnAt);
+  return picture;
 }
 
 void Renderer::Parts::drawOver(Picture& picture, const OverlayShapes& shapes) {
-  if (!overlays) {
-    overlays.emplace(gl, shaders, picture.width, picture.height);
-  }
-  overlays->drawOver(picture, shapes);
+  overlays.try_emplace({picture.width, picture.height}, gl, shaders, picture.width, picture.height)
+      .first->second.drawOver(picture, shapes);
   ++figures.overlayPasses;
 }
 
@@ -348,28 +421,45 @@ Picture Renderer::draw(std::span<const Pose> poses) {
 
 Picture Renderer::draw(const Shot& shot) {
   Parts& parts = *parts_;
-  const std::size_t poses = shot.poses.size();
-  const std::size_t boxes = parts.world.bodies.size();
-  if (boxes == 0 ? poses != 0 : poses == 0 || poses % boxes != 0) {
-    throw InputError("drawing: found " + std::to_string(poses) + " poses, expected one for each of " +
-                     std::to_string(boxes) + " boxes, or so many for each of several moments");
-  }
-  const Clock::time_point begun = Clock::now();
-  parts.context->makeCurrent();
-  parts.look(shot);
-  parts.place(shot.poses, shot.camera);
-  parts.upload();
-  if (parts.occlusionMap) {
-    parts.drawOcclusion();
-  }
-  parts.drawPicture();
-  parts.figures.drawSeconds += secondsSince(begun);
-
-  const Clock::time_point drawnAt = Clock::now();
-  Picture picture = parts.canvas.read();
-  parts.figures.readSeconds += secondsSince(drawnAt);
+  parts.prepare(shot);
+  Picture picture = parts.drawn([&] {
+    parts.drawBoxes(Cast::kEverywhere);
+    parts.drawStage(parts.shadedCells, parts.occludedCells);
+  });
+  refuseBlack(picture, parts.gl.description);
   ++parts.figures.frames;
   return picture;
+}
+
+MatteParts Renderer::drawMatte(const Shot& shot) {
+  Parts& parts = *parts_;
+  parts.prepare(shot);
+  MatteParts matte;
+  matte.boxes = parts.drawn([&] {
+    parts.drawBoxes(Cast::kOnBoxes);
+    parts.drawBlack();
+  });
+  matte.coverage = parts.drawn([&] {
+    for (std::size_t layer = 0; layer < parts.boxes.layers(); ++layer) {
+      parts.boxes.drawCoverage(layer);
+    }
+    parts.drawBlack();
+  });
+  matte.stage = parts.drawn([&] {
+    if (parts.shadows) {
+      if (mayOverlap(parts.stage)) {
+        parts.surfaces.drawDepth();
+      }
+      parts.gatherShadows();
+      parts.castOnSurfaces();
+      parts.takeByShadows();
+    }
+    parts.drawStage(parts.shadedCells, parts.occludedCells);
+  });
+  const PictureCells nowhere(parts.view);
+  matte.emptyStage = parts.drawn([&] { parts.drawStage(nowhere, nowhere); });
+  ++parts.figures.frames;
+  return matte;
 }
 
 View Renderer::view(const Camera& camera) const { return viewOf(camera, parts_->extent, parts_->aspect); }

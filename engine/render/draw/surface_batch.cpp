@@ -154,6 +154,17 @@ void SurfaceBatch::draw(const PictureCells& shadows, const PictureCells& occlusi
   gl_.Disable(GL_BLEND);
 }
 
+void SurfaceBatch::drawBlack() {
+  if (blackProgram_ == 0) {
+    blackProgram_ = linkProgram(
+        gl_, shaders_,
+        with({"surface.vert", "surface.frag", "open_everywhere.frag", "write_black.frag"}, light_));
+  }
+  gl_.UseProgram(blackProgram_);
+  gl_.BindVertexArray(array_);
+  gl_.DrawArrays(GL_TRIANGLES, 0, vertices_.count());
+}
+
 void SurfaceBatch::drawDepth() const {
   gl_.UseProgram(depthProgram_);
   gl_.BindVertexArray(array_);

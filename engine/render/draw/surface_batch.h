@@ -26,6 +26,8 @@ class SurfaceBatch {
   /// Draws to a canvas of this size [px]: where shadows may reach by blending full light and full shadow,
   /// where boxes occlude with the map of occlusion.
   void draw(const PictureCells& shadows, const PictureCells& occlusion, int width, int height);
+  /// Black, but for what lies before them.
+  void drawBlack();
   /// Black, a little farther away, for their depth.
   void drawDepth() const;
   /// Those that the eye is behind, as glass over what is drawn.
@@ -41,7 +43,8 @@ class SurfaceBatch {
   std::vector<std::string> light_;
   std::array<unsigned, 4> programs_{};  // made when first used; 1: shadows, 2: occlusion
   unsigned depthProgram_;
-  unsigned glassProgram_ = 0;  // made when first used
+  unsigned blackProgram_ = 0;  // made when first used
+  unsigned glassProgram_ = 0;  // likewise
   std::vector<Surface> surfaces_;
   double tileSize_;
   std::optional<Vec3> eye_;

@@ -50,14 +50,16 @@ std::string hashesOf(std::span<const Trajectory* const> runs) {
 
 FilmManifest manifestOf(const Trajectory& run, const FilmSettings& settings, const FilmPictures& pictures) {
   const PictureSettings picture = pictures.settings();
+  const ShownBesides& besides = settings.besides;
   FilmManifest manifest{.program = settings.program,
                         .renderer = {},
                         .libraries = librariesHere(),
                         .sceneHash = run.sceneHash(),
                         .stateHash = run.stateHash(),
                         .shownAs = run.stage.shownAs,
-                        .ghost = settings.ghost != nullptr ? settings.ghost->stateHash() : "",
-                        .beside = hashesOf(settings.beside),
+                        .ghost = besides.ghost != nullptr ? besides.ghost->stateHash() : "",
+                        .beside = hashesOf(besides.beside),
+                        .plot = besides.plot ? std::string(nameOf(*besides.plot)) : "",
                         .picture = picture,
                         .frameCount = picture.rate.frameCount(pictures.duration()),
                         .frames = {},
@@ -98,7 +100,13 @@ RenderOptions optionsOfJob(const FilmSettings& settings, int jobs) {
 }
 
 std::size_t bytesOf(const PictureSettings& picture) {
-  return static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * 3;
+  return static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) *
+         (picture.alpha ? 4 : 3);
+}
+
+// As a video takes them.
+std::vector<std::uint8_t> pixelsOf(Picture picture) {
+  return picture.alpha.empty() ? std::move(picture.rgb) : rgbaOf(picture);
 }
 
 std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings, const PictureSettings& picture) {
@@ -110,6 +118,7 @@ std::unique_ptr<VideoPipe> startVideo(const FilmSettings& settings, const Pictur
   video.height = picture.height;
   video.rateNumerator = picture.rate.numerator;
   video.rateDenominator = picture.rate.denominator;
+  video.alpha = picture.alpha;
   return std::make_unique<VideoPipe>(std::move(video));
 }
 
@@ -127,15 +136,16 @@ FrameWorkshop openWorkshop(FilmPictures& pictures, const FilmSettings& settings,
     }
     FrameFigures figures{.frame = frame, .time = rate.frameTime(frame)};
     const DrawFigures before = pictures.figures();
-    const Picture picture = pictures.draw(figures.time);
+    Picture picture = pictures.draw(figures.time);
     const DrawFigures after = pictures.figures();
     figures.drawSeconds = after.drawSeconds - before.drawSeconds;
     figures.readSeconds = after.readSeconds - before.readSeconds;
     const double begun = wallSeconds();
-    if (ring.places() > 0) {
-      std::copy(picture.rgb.begin(), picture.rgb.end(), ring[index].begin());
-    }
     const std::string bytes = encodePng(picture);
+    if (ring.places() > 0) {
+      const std::vector<std::uint8_t> pixels = pixelsOf(std::move(picture));
+      std::copy(pixels.begin(), pixels.end(), ring[index].begin());
+    }
     writeFile(settings.folder / frameFileName(frame), bytes);
     frameHash(bytes).copy(figures.hash.data(), figures.hash.size());
     figures.encodeSeconds = wallSeconds() - begun;
@@ -207,9 +217,9 @@ class FrameFlow {
     std::span<const std::uint8_t> pixels;
     if (old_[place(shown_)]) {
       if (sent_ == 0) {
-        oldPicture_ = readPng(folder_.path() / frameFileName(asked_[place(shown_)]));
+        oldPixels_ = pixelsOf(readPng(folder_.path() / frameFileName(asked_[place(shown_)])));
       }
-      pixels = oldPicture_.rgb;
+      pixels = oldPixels_;
     } else {
       pixels = ring_[shown_];
     }
@@ -248,7 +258,7 @@ class FrameFlow {
   std::int64_t next_ = 0;   // next index to assign
   std::int64_t shown_ = 0;  // frames completely written to the video
   std::size_t sent_ = 0;    // [bytes] of the frame after those
-  Picture oldPicture_;
+  std::vector<std::uint8_t> oldPixels_;
   double begun_ = 0;  // [s]
   FilmFigures figures_;
   std::map<std::int64_t, std::string> hashes_;
@@ -275,7 +285,7 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
                        const std::stop_token& stop) {
   const double wallBegun = wallSeconds();
   const double coreBegun = coreSeconds();
-  FilmPictures pictures(run, settings.beside, settings.ghost);
+  FilmPictures pictures(run, settings.besides);
   const PictureSettings picture = pictures.settings();
   FilmManifest asked = manifestOf(run, settings, pictures);
   pictures.first().checkCamera(asked.frames, picture.rate);
@@ -311,6 +321,7 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
     video->finish();
   }
   figures.jobs = jobs;
+  figures.picture = picture;
   figures.renderer = asked.renderer;
   figures.wallSeconds = wallSeconds() - wallBegun;
   figures.coreSeconds = coreSeconds() - coreBegun + coreOfWorkers;

@@ -13,6 +13,7 @@
 #include "film/frame_range.h"
 #include "image/video_format.h"
 #include "render/draw/renderer.h"
+#include "render/film/film_pictures.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {
@@ -32,10 +33,7 @@ struct FilmSettings {
   /// Video of the requested frames, encoded by ffmpeg; its size and rate are those of the run's pictures.
   std::optional<VideoSettings> video;
   FilmThere there = FilmThere::kDrawAgain;
-  /// Another run of the boxes, shown as outlines; null: none. It must last until the film is done.
-  const Trajectory* ghost = nullptr;
-  /// Other runs, shown beside it, likewise.
-  std::vector<const Trajectory*> beside;
+  ShownBesides besides;  ///< the runs must last until the film is done
   /// Number of worker processes, each drawing one frame at a time; absent: one per core. Never more than
   /// there are frames to draw.
   std::optional<int> jobs;
@@ -75,6 +73,7 @@ struct FilmFigures {
   double encodeSeconds = 0;  ///< [s] likewise, encoding and writing PNG files
   double wallSeconds = 0;    ///< [s] in total
   double coreSeconds = 0;    ///< [s] CPU time over all cores, without ffmpeg's
+  PictureSettings picture;   ///< of what the film shows, other runs and plot included
   std::string renderer;      ///< empty if nothing was drawn
 };
 

@@ -21,6 +21,11 @@ Picture joined(const std::vector<Picture>& pictures) {
     for (const Picture& each : pictures) {
       const std::uint8_t* const begin = each.rgb.data() + row * each.rowBytes();
       all.rgb.insert(all.rgb.end(), begin, begin + each.rowBytes());
+      if (!each.alpha.empty()) {
+        const auto columns = static_cast<std::ptrdiff_t>(each.width);
+        const auto from = each.alpha.begin() + static_cast<std::ptrdiff_t>(row) * columns;
+        all.alpha.insert(all.alpha.end(), from, from + columns);
+      }
     }
   }
   return all;
@@ -34,16 +39,18 @@ void entitle(Trajectory& run, const std::string& name) {
 
 }  // namespace
 
-FilmPictures::FilmPictures(const Trajectory& run, std::span<const Trajectory* const> beside,
-                           const Trajectory* ghost) {
+FilmPictures::FilmPictures(const Trajectory& run, const ShownBesides& besides) : quantity_(besides.plot) {
+  if (quantity_ == PlotQuantity::kDistance && besides.beside.empty()) {
+    throw InputError("found a plot of distances and one run, expected others beside it");
+  }
   const auto add = [this](const Trajectory& shown, const Trajectory* itsGhost) {
     Shown& each = shown_.emplace_back();
     each.run = &shown;
     each.ghost = itsGhost;
     each.filming = std::make_unique<Filming>(shown);
   };
-  add(run, ghost);
-  for (const Trajectory* const each : beside) {
+  add(run, besides.ghost);
+  for (const Trajectory* const each : besides.beside) {
     add(*each, nullptr);
   }
 }
@@ -59,6 +66,7 @@ double FilmPictures::duration() const {
 PictureSettings FilmPictures::settings() const {
   PictureSettings all = shown_.front().run->stage.picture;
   all.width *= static_cast<int>(shown_.size());
+  all.height += quantity_ ? plotHeight(all.height) : 0;
   return all;
 }
 
@@ -71,6 +79,15 @@ void FilmPictures::turnCamera(const Orbit& orbit) {
 void FilmPictures::makeOverlays() {
   for (Shown& each : shown_) {
     each.overlays = overlaysOf(*each.run, each.ghost);
+  }
+  if (quantity_) {
+    std::vector<FilmPlot::Shown> runs;
+    for (const Shown& each : shown_) {
+      runs.push_back({.run = each.run, .filming = each.filming.get(), .name = each.run->stage.name});
+    }
+    const PictureSettings whole = settings();
+    plot_.emplace(*quantity_, runs, duration(), whole.width,
+                  whole.height - shown_.front().run->stage.picture.height);
   }
 }
 
@@ -91,7 +108,24 @@ Picture FilmPictures::draw(double filmTime) {
       each.filming->explain(*each.renderer, pictures.back(), filmTime, *each.overlays);
     }
   }
-  return pictures.size() == 1 ? std::move(pictures.front()) : joined(pictures);
+  Picture picture = pictures.size() == 1 ? std::move(pictures.front()) : joined(pictures);
+  return plot_ ? withPlot(picture, filmTime) : picture;
+}
+
+Picture FilmPictures::withPlot(const Picture& above, double filmTime) {
+  const auto pixelsOf = [](int width, int height) {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  };
+  const std::size_t pixels = pixelsOf(plot_->width(), plot_->height());
+  Picture below{.width = plot_->width(), .height = plot_->height(), .rgb = {}};
+  below.rgb.resize(3 * pixels);
+  below.alpha.resize(above.alpha.empty() ? 0 : pixels);
+  shown_.front().renderer->drawOver(below, plot_->shapesAt(filmTime));
+  Picture both = above;
+  both.height += below.height;
+  both.rgb.insert(both.rgb.end(), below.rgb.begin(), below.rgb.end());
+  both.alpha.insert(both.alpha.end(), below.alpha.begin(), below.alpha.end());
+  return both;
 }
 
 Picture FilmPictures::drawStrobe(std::span<const double> filmTimes) {
@@ -124,6 +158,7 @@ void showFirst(Trajectory& run, const std::string& name) {
   }
   stage.picture.overlays.add(Overlay::kTime);
   entitle(run, name);
+  stage.name = name;
 }
 
 void showBeside(Trajectory& run, const Trajectory& first, const std::string& name) {
@@ -148,6 +183,7 @@ void showBeside(Trajectory& run, const Trajectory& first, const std::string& nam
     sameBox(stage.focus->body);
   }
   entitle(run, name);
+  stage.name = name;
 }
 
 }  // namespace careen

@@ -1,24 +1,30 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "render/draw/renderer.h"
+#include "render/film/film_plot.h"
 #include "render/film/filming.h"
 #include "render/overlay/overlays.h"
 
 namespace careen {
 
+/// What a film shows besides a run. The other runs must last as long as who is given this.
+struct ShownBesides {
+  std::vector<const Trajectory*> beside = {};  ///< made to look like the run (showBeside)
+  const Trajectory* ghost = nullptr;           ///< in the run's picture, as outlines; null: none
+  std::optional<PlotQuantity> plot = {};       ///< below
+};
+
 /// The pictures of a film, overlays included: of a run, or of several side by side, each as large as the
 /// first one's. Keeps references to the runs.
 class FilmPictures {
  public:
-  /// Those `beside` must look like the first (showBeside). `ghost`, if not null, is drawn into the first as
-  /// outlines.
-  explicit FilmPictures(const Trajectory& run, std::span<const Trajectory* const> beside = {},
-                        const Trajectory* ghost = nullptr);
+  explicit FilmPictures(const Trajectory& run, const ShownBesides& besides = {});
 
   /// [s] Of the film: until the last of the runs has ended.
   double duration() const;
@@ -50,7 +56,11 @@ class FilmPictures {
     std::unique_ptr<Overlays> overlays;
     std::unique_ptr<Renderer> renderer;
   };
+  Picture withPlot(const Picture& above, double filmTime);
+
   std::vector<Shown> shown_;
+  std::optional<PlotQuantity> quantity_;
+  std::optional<FilmPlot> plot_;
 };
 
 /// Lets a run be shown as another is, beside it: with its camera, which follows the box of the same name, its

@@ -7,6 +7,7 @@
 #include "core/brief.h"
 #include "core/error.h"
 #include "image/light_average.h"
+#include "image/matte.h"
 #include "render/draw/renderer.h"
 #include "render/overlay/overlays.h"
 #include "stage/turn.h"
@@ -15,24 +16,9 @@
 namespace careen {
 namespace {
 
-// What to draw, and how many shutter samples are identical to it.
-struct Sample {
-  std::vector<Pose> poses;
-  Camera camera;
-  double time = 0;  // [s] of the run
-  int weight = 1;
-};
-
-bool isSame(const Camera& a, const Camera& b) {
+bool isSameCamera(const Camera& a, const Camera& b) {
   return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovDegrees == b.fovDegrees &&
          a.beside == b.beside && a.sharpAt == b.sharpAt;
-}
-
-bool isSame(const Sample& a, const Sample& b, const Stage& stage) {
-  return (a.time == b.time || !stage.hasMovingPlanes()) && isSame(a.camera, b.camera) &&
-         std::equal(a.poses.begin(), a.poses.end(), b.poses.begin(), [](const Pose& p, const Pose& q) {
-           return p.position == q.position && p.worldFromBody == q.worldFromBody;
-         });
 }
 
 }  // namespace
@@ -93,8 +79,15 @@ void Filming::checkCamera(std::span<const std::int64_t> frames, const FrameRate&
   }
 }
 
-Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutter,
-                      const FrameRate& rate) const {
+bool Filming::isSame(const Sample& a, const Sample& b) const {
+  return (a.time == b.time || !run_.stage.hasMovingPlanes()) && isSameCamera(a.camera, b.camera) &&
+         std::equal(a.poses.begin(), a.poses.end(), b.poses.begin(), [](const Pose& p, const Pose& q) {
+           return p.position == q.position && p.worldFromBody == q.worldFromBody;
+         });
+}
+
+std::vector<Filming::Sample> Filming::samplesAt(double filmTime, const Shutter& shutter,
+                                                const FrameRate& rate) const {
   const double open = shutter.degrees / 360 * rate.frameTime(1);
   const int count =
       std::max(open > 0 ? shutter.samples : 1, run_.stage.focus ? run_.stage.focus->samples : 1);
@@ -103,21 +96,49 @@ Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutte
     const double time = filmTime + open * ((i + 0.5) / count - 0.5);
     Sample sample{
         .poses = run_.poses(sceneTime(time)), .camera = camera(time, i, count), .time = sceneTime(time)};
-    if (!samples.empty() && isSame(samples.back(), sample, run_.stage)) {
+    if (!samples.empty() && isSame(samples.back(), sample)) {
       ++samples.back().weight;  // identical to the last sample: no need to draw it again
     } else {
       samples.push_back(std::move(sample));
     }
   }
+  return samples;
+}
+
+Picture Filming::drawn(Renderer& renderer, const std::vector<Sample>& samples) const {
+  const auto shotOf = [](const Sample& sample) {
+    return Shot{.poses = sample.poses, .camera = sample.camera, .time = sample.time};
+  };
+  if (run_.stage.picture.alpha) {
+    LightAverage boxes;
+    LightAverage coverage;
+    LightAverage stage;
+    LightAverage emptyStage;
+    for (const Sample& sample : samples) {
+      const MatteParts parts = renderer.drawMatte(shotOf(sample));
+      boxes.add(parts.boxes, sample.weight);
+      coverage.add(parts.coverage, sample.weight);
+      stage.add(parts.stage, sample.weight);
+      emptyStage.add(parts.emptyStage, sample.weight);
+    }
+    return onNothing({.boxes = boxes.average(),
+                      .coverage = coverage.average(),
+                      .stage = stage.average(),
+                      .emptyStage = emptyStage.average()});
+  }
   if (samples.size() == 1) {
-    return renderer.draw({.poses = samples[0].poses, .camera = samples[0].camera, .time = samples[0].time});
+    return renderer.draw(shotOf(samples[0]));
   }
   LightAverage average;
   for (const Sample& sample : samples) {
-    average.add(renderer.draw({.poses = sample.poses, .camera = sample.camera, .time = sample.time}),
-                sample.weight);
+    average.add(renderer.draw(shotOf(sample)), sample.weight);
   }
   return average.average();
+}
+
+Picture Filming::draw(Renderer& renderer, double filmTime, const Shutter& shutter,
+                      const FrameRate& rate) const {
+  return drawn(renderer, samplesAt(filmTime, shutter, rate));
 }
 
 void Filming::explain(Renderer& renderer, Picture& picture, double filmTime, Overlays& overlays) const {
@@ -141,8 +162,9 @@ Picture Filming::drawStrobe(Renderer& renderer, std::span<const double> filmTime
     const std::vector<Pose> poses = run_.poses(sceneTime(time));
     all.insert(all.end(), poses.begin(), poses.end());
   }
-  return renderer.draw(
-      {.poses = all, .camera = camera(filmTimes.front()), .time = sceneTime(filmTimes.back())});
+  return drawn(
+      renderer,
+      {{.poses = std::move(all), .camera = camera(filmTimes.front()), .time = sceneTime(filmTimes.back())}});
 }
 
 }  // namespace careen

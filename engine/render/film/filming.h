@@ -45,6 +45,7 @@ class Filming {
   /// The picture at a moment. With an open shutter (motion blur) it is the average of pictures at the
   /// midpoints of `samples` equal parts of the exposure time, which is centred on the moment; and with a
   /// lens, of pictures from points that are spread evenly over it, as many as the larger of both numbers.
+  /// If the stage's pictures have alpha, so has this one.
   Picture draw(Renderer& renderer, double filmTime, const Shutter& shutter, const FrameRate& rate) const;
 
   /// Draws the overlays of that moment over its picture.
@@ -57,6 +58,17 @@ class Filming {
   Picture drawStrobe(Renderer& renderer, std::span<const double> filmTimes) const;
 
  private:
+  /// What to draw, and for how many of the moments of an exposure.
+  struct Sample {
+    std::vector<Pose> poses;
+    Camera camera;
+    double time = 0;  // [s] of the run
+    int weight = 1;
+  };
+  bool isSame(const Sample& a, const Sample& b) const;
+  std::vector<Sample> samplesAt(double filmTime, const Shutter& shutter, const FrameRate& rate) const;
+  Picture drawn(Renderer& renderer, const std::vector<Sample>& samples) const;
+
   const Trajectory& run_;
   TimeMap clock_;
   CameraPath path_;

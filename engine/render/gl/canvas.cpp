@@ -83,6 +83,12 @@ bool average(const std::uint8_t* from, std::size_t times, std::size_t rowPixels,
   return drawn;
 }
 
+[[noreturn]] void failToDraw(const char* how, const std::string& renderer) {
+  throw MachineError(std::string("the frame came out ") + how + ": " + renderer +
+                     " does not draw what it should; another may: --list-rendering-backends, apt install " +
+                     std::string(drawingPackages()));
+}
+
 }  // namespace
 
 Canvas::Canvas(const Gl& gl, int width, int height, Antialiasing antialiasing)
@@ -138,7 +144,6 @@ Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int he
   const auto rows = static_cast<std::size_t>(height);
   const auto times = static_cast<std::size_t>(scale);
   picture.rgb.resize(picture.rowBytes() * rows);
-  unsigned brightest = 0;
   bool blank = false;
   for (std::size_t row = 0; row < rows; ++row) {
     const std::uint8_t* from = &rgba[times * (rows - 1 - row) * times * columns * 4];
@@ -150,16 +155,18 @@ Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int he
         std::copy_n(from, 3, to);
         blank = blank || from[3] == 0;
       }
-      brightest |= static_cast<unsigned>(to[0]) | to[1] | to[2];
     }
   }
-  if (blank || brightest == 0) {
-    throw MachineError(std::string("the frame came out ") + (blank ? "with pixels left blank" : "black") +
-                       ": " + renderer +
-                       " does not draw what it should; another may: --list-rendering-backends, apt install " +
-                       std::string(drawingPackages()));
+  if (blank) {
+    failToDraw("with pixels left blank", renderer);
   }
   return picture;
+}
+
+void refuseBlack(const Picture& picture, const std::string& renderer) {
+  if (std::all_of(picture.rgb.begin(), picture.rgb.end(), [](std::uint8_t value) { return value == 0; })) {
+    failToDraw("black", renderer);
+  }
 }
 
 }  // namespace careen

@@ -22,7 +22,7 @@ class Canvas {
   void begin() const;
   /// Waits until drawing is complete.
   void finish() const;
-  /// Antialiases and reads back the frame. MachineError if it is blank.
+  /// Antialiases and reads back the frame. MachineError if a pixel is blank.
   Picture read();
 
   /// [px] of what is drawn, before it is averaged to the picture.
@@ -45,9 +45,11 @@ class Canvas {
 };
 
 /// Converts RGBA rows, bottom row first, to a picture, averaging each `scale` x `scale` pixels in linear
-/// light. Drawn pixels have an alpha above 0: MachineError, naming `renderer`, if a pixel was never drawn or
-/// all are black.
+/// light. Drawn pixels have an alpha above 0: MachineError, naming `renderer`, if a pixel was never drawn.
 Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int height, int scale,
                            const std::string& renderer);
+
+/// MachineError, likewise, if all pixels are black.
+void refuseBlack(const Picture& picture, const std::string& renderer);
 
 }  // namespace careen

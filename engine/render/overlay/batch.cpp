@@ -203,6 +203,9 @@ OverlayBatch::OverlayBatch(const Gl& gl, const std::filesystem::path& shaders, i
 }
 
 void OverlayBatch::sendAtlas() {
+  gl_.ActiveTexture(GL_TEXTURE0 + kGlyphUnit);
+  gl_.BindTexture(GL_TEXTURE_2D, texture_);  // another batch may have bound its own
+  gl_.ActiveTexture(GL_TEXTURE0);
   if (atlas_.revision() == sentRevision_ || atlas_.coverage().empty()) {
     return;
   }
@@ -248,9 +251,16 @@ void OverlayBatch::drawOver(Picture& picture, const OverlayShapes& shapes) {
       if (from[3] == 0) {
         continue;
       }
-      const unsigned left = 255U - from[3];
+      unsigned whole = 255;  // of colour times alpha
+      unsigned left = 255U - from[3];
+      if (!picture.alpha.empty()) {
+        std::uint8_t& alpha = picture.alpha[row * columns + column];
+        left = (left * alpha + 127U) / 255U;
+        whole = from[3] + left;
+        alpha = static_cast<std::uint8_t>(whole);
+      }
       for (std::size_t channel = 0; channel < 3; ++channel) {
-        const unsigned mixed = from[channel] + (left * to[channel] + 127U) / 255U;
+        const unsigned mixed = (255U * from[channel] + left * to[channel] + whole / 2) / whole;
         to[channel] = static_cast<std::uint8_t>(std::min(mixed, 255U));
       }
     }

@@ -23,7 +23,7 @@ class FilmPicturesTest : public testing::Test {
     return run;
   }
   static Picture drawn(const Trajectory& first, const std::vector<const Trajectory*>& beside, double time) {
-    FilmPictures pictures(first, beside);
+    FilmPictures pictures(first, {.beside = beside});
     pictures.makeOverlays();
     pictures.open({});
     return pictures.draw(time);
@@ -51,7 +51,7 @@ TEST_F(FilmPicturesTest, besideEachOtherAreThoseOfEach) {
                            right.rgb.data() + row * left.rowBytes()))
         << row;
   }
-  FilmPictures pictures(first, std::vector<const Trajectory*>{&other});
+  FilmPictures pictures(first, {.beside = {&other}});
   EXPECT_EQ(pictures.settings().width, 2 * kWide);
 }
 
@@ -88,7 +88,45 @@ TEST_F(FilmPicturesTest, theCameraFollowsTheBoxOfThatName) {
 TEST_F(FilmPicturesTest, theFilmIsAsLongAsTheLongest) {
   const Trajectory first = run(Vec3(1, 0, 0), 0.5);
   const Trajectory other = run(Vec3(1, 0, 0), 0.75);
-  EXPECT_EQ(FilmPictures(first, std::vector<const Trajectory*>{&other}).duration(), 0.75);
+  EXPECT_EQ(FilmPictures(first, {.beside = {&other}}).duration(), 0.75);
+}
+
+// Text of pictures of two sizes, in turns.
+TEST_F(FilmPicturesTest, aPlotDoesNotMixUpItsTextWithThatAbove) {
+  Trajectory first = run(Vec3(1, 0, 0));
+  showFirst(first, "first");
+  const auto drawnAfter = [&](const std::vector<double>& before) {
+    FilmPictures pictures(first, {.plot = PlotQuantity::kSpeed});
+    pictures.makeOverlays();
+    pictures.open({});
+    for (const double time : before) {
+      pictures.draw(time);
+    }
+    return pictures.draw(0.5).rgb;
+  };
+  EXPECT_EQ(drawnAfter({0.1, 0.9}), drawnAfter({}));
+}
+
+TEST_F(FilmPicturesTest, aPlotStandsBelowAndChangesNoPixelAbove) {
+  const Trajectory first = run(Vec3(1, 0, 0));
+  const Trajectory other = run(Vec3(1, 0, 1));
+  const Picture above = drawn(first, {&other}, 0.5);
+  FilmPictures pictures(first, {.beside = {&other}, .plot = PlotQuantity::kDistance});
+  pictures.makeOverlays();
+  pictures.open({});
+  const Picture early = pictures.draw(0.2);
+  const Picture whole = pictures.draw(0.5);
+  ASSERT_EQ(whole.width, 2 * kWide);
+  ASSERT_EQ(whole.height, kHigh + plotHeight(kHigh));
+  EXPECT_EQ(pictures.settings().height, whole.height);
+  EXPECT_TRUE(std::equal(above.rgb.begin(), above.rgb.end(), whole.rgb.begin()));
+  const auto plotOf = [&](const Picture& picture) {
+    return std::vector<std::uint8_t>(picture.rgb.begin() + static_cast<std::ptrdiff_t>(above.rgb.size()),
+                                     picture.rgb.end());
+  };
+  EXPECT_NE(plotOf(early), plotOf(whole)) << "it grows";
+  EXPECT_EQ(plotOf(pictures.draw(0.2)), plotOf(early));
+  EXPECT_THROW(FilmPictures(first, {.plot = PlotQuantity::kDistance}), InputError);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <string>
@@ -401,6 +402,26 @@ TEST_F(FilmTest, damagedManifestIsNamed) {
   film(settings_);
   folder_.write("film/film.json", "{ \"careen_film\": 1 }");
   EXPECT_NE(errorOf(settings_).find("film.json: is not a film manifest"), std::string::npos);
+}
+
+TEST_F(FilmTest, withAlphaIsAnotherFilmAndResumedIsTheSame) {
+  scene_.picture.alpha = true;
+  settings_.video = VideoSettings{.path = folder_ / "film.apng"};
+  interruptedFilm(settings_, 4);
+  settings_.there = FilmThere::kResume;
+  EXPECT_GT(film(settings_).skipped, 0);
+  FilmSettings whole = filmIn("whole");
+  whole.video = VideoSettings{.path = folder_ / "whole.apng"};
+  film(whole);
+  expectSame("film", "whole");
+  EXPECT_EQ(textOf(folder_ / "film.apng"), textOf(folder_ / "whole.apng"));
+  const Picture frame = readPng(folder_ / "film/000002.png");
+  EXPECT_EQ(frame.alpha.size(), 64U * 36U);
+  EXPECT_EQ(*std::min_element(frame.alpha.begin(), frame.alpha.end()), 0);
+  EXPECT_EQ(*std::max_element(frame.alpha.begin(), frame.alpha.end()), 255);
+  scene_.picture.alpha = false;
+  const std::string said = errorOf(settings_);
+  EXPECT_NE(said.find("alpha yes there, no now"), std::string::npos) << said;
 }
 
 // The last ones, for they open GL in this process, after which no job can draw.

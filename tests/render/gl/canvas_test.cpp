@@ -13,7 +13,7 @@ namespace {
 
 std::string errorOf(const std::vector<std::uint8_t>& rgba) {
   try {
-    pictureFromDrawing(rgba, 2, 2, 1, "a renderer, version 1");
+    refuseBlack(pictureFromDrawing(rgba, 2, 2, 1, "a renderer, version 1"), "a renderer, version 1");
   } catch (const MachineError& error) {
     return error.what();
   }

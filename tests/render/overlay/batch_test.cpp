@@ -64,6 +64,24 @@ TEST_F(OverlayBatchTest, inkMixesWithWhatIsBelow) {
   }
 }
 
+// Over nothing there is the ink alone, over half a red both: by the rule for colours with alpha.
+TEST_F(OverlayBatchTest, inkOverNothingKeepsItsColourAndHasAlpha) {
+  const std::size_t pixels = std::size_t{kWidthOfBatch} * kHeightOfBatch;
+  Picture picture{.width = kWidthOfBatch, .height = kHeightOfBatch, .rgb = {}};
+  picture.rgb.assign(3 * pixels, 100);
+  picture.alpha.assign(pixels, 0);
+  const auto place = [](int x, int y) { return static_cast<std::size_t>(y * kWidthOfBatch + x); };
+  picture.alpha[place(40, 35)] = 128;
+  renderer_.drawOver(picture, {Plate{.min = Vec2(20, 30), .max = Vec2(50, 40), .ink = {kRed, 0.5}}});
+  EXPECT_NEAR(picture.alpha[place(30, 35)], 127.5, 1);
+  EXPECT_EQ(picture.alpha[place(10, 35)], 0);
+  EXPECT_NEAR(picture.alpha[place(40, 35)], 255 * 0.75, 1.5);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    EXPECT_NEAR(pixelAt(picture, 30, 35)[channel], kRedPixel[channel], 2);
+    EXPECT_NEAR(pixelAt(picture, 40, 35)[channel], (0.5 * kRedPixel[channel] + 0.25 * 100) / 0.75, 2);
+  }
+}
+
 TEST_F(OverlayBatchTest, arrowReachesFromEndToEnd) {
   const Picture without = bare();
   const Picture with = over(

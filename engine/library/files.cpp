@@ -1,0 +1,77 @@
+// Runs beside runs, as files of other programs, and by the thousand.
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "compare/run_difference.h"
+#include "core/error.h"
+#include "core/math/arithmetic.h"
+#include "core/system/file.h"
+#include "core/system/processor.h"
+#include "exchange/exporters.h"
+#include "library/careen.h"
+#include "library/run_data.h"
+#include "library/translated.h"
+#include "sweep/sweep.h"
+
+namespace careen::v1 {
+
+void Run::exportTo(const std::filesystem::path& path, double every) const {
+  const DefaultFloatEnvironment usual;
+  translated("", [&] {
+    const std::string suffix = path.extension().string();
+    const auto* const found = std::find_if(kExporters.begin(), kExporters.end(),
+                                           [&](const Exporter* each) { return each->suffix == suffix; });
+    if (found == kExporters.end()) {
+      std::string known;
+      for (const Exporter* const each : kExporters) {
+        known.append(known.empty() ? "" : ", ").append(each->suffix);
+      }
+      throw InputError(path.string() + ": found a name that ends in '" + suffix +
+                       "', expected one of: " + known);
+    }
+    AtomicFile file(path);
+    ExportSettings settings{.program = version()};
+    settings.every = every;
+    (*found)->write(data_->trajectory, settings, [&file](std::string_view text) { file.write(text); });
+    file.commit();
+  });
+}
+
+Difference Run::differenceFrom(const Run& other) const {
+  const DefaultFloatEnvironment usual;
+  return translated("", [&] {
+    const RunDifference found = differenceOf(other.data_->trajectory, data_->trajectory);
+    return Difference{.incomparable = found.incomparable,
+                      .same = found.sameBits,
+                      .from = found.firstTime,
+                      .position = found.worst.difference.position,
+                      .angle = found.worst.difference.angle,
+                      .box = found.worst.body,
+                      .time = found.worst.time,
+                      .horizon = found.horizon,
+                      .firstImpact = found.firstImpact ? found.firstImpact->what : ""};
+  });
+}
+
+SweepTable sweep(const std::filesystem::path& family, const std::filesystem::path& folder, long first,
+                 long last, int jobs) {
+  return translated(family.string(), [&] {
+    SweepSettings settings;
+    settings.folder = folder;
+    settings.runs = {.first = first, .last = last};
+    if (first < 0 || last < first || last - first >= kMostRuns) {
+      throw InputError("found runs " + std::to_string(first) + " to " + std::to_string(last) +
+                       ", expected a range from 0 on");
+    }
+    settings.jobs = jobs > 0 ? jobs : usableCores();
+    settings.program = version();
+    const std::string text = readFile(family);
+    const SweepFigures figures = runSweep(Family(text, family.string()), text, settings);
+    return SweepTable{.path = folder / "table.csv",
+                      .rows = static_cast<long>(figures.rows),
+                      .broken = static_cast<long>(figures.broken)};
+  });
+}
+
+}  // namespace careen::v1

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "library/careen.h"
+#include "trajectory/trajectory.h"
+
+namespace careen::v1 {
+
+inline Vector vectorOf(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// What copies of a run share.
+struct Run::Data {
+  explicit Data(Trajectory run) : trajectory(std::move(run)) {
+    for (const Body& body : trajectory.world.bodies) {
+      names.push_back(body.name);
+    }
+    for (const careen::Impact& each : trajectory.impacts) {
+      impacts.push_back({.time = each.time,
+                         .a = trajectory.world.bodies.at(static_cast<std::size_t>(each.a.value)).name,
+                         .b = trajectory.partnerName(each),
+                         .point = vectorOf(each.point),
+                         .normal = vectorOf(each.normal),
+                         .approach = each.approach,
+                         .impulse = each.impulse,
+                         .tangential = each.tangential});
+    }
+  }
+
+  Trajectory trajectory;
+  std::vector<std::string> names;
+  std::vector<Impact> impacts;
+};
+
+}  // namespace careen::v1
