@@ -27,6 +27,7 @@ struct ExportOptions {
   std::optional<double> within;
   std::optional<double> every;  // [s]
   bool forces = false;
+  bool realTime = false;
   SceneOfTable scene;
   AuditChoice audit;
 };
@@ -70,6 +71,10 @@ void check(const ExportOptions& options, ExportOption taken) {
     throw InputError("--every: found the file " + options.output.string() +
                      ", which has no rows; expected a table");
   }
+  if (options.realTime && taken != ExportOption::kWithin) {
+    throw InputError("--real-time: found the file " + options.output.string() +
+                     ", which is no film; expected a .glb");
+  }
   if (options.within) {
     parsed("--within", *options.within, checkGlbError);
   }
@@ -92,6 +97,9 @@ void writeScene(const ExportOptions& options) {
 void writeRun(const ExportOptions& options, const Exporter& exporter, const std::stop_token& stop) {
   Run run = loadRun(options.source, {}, options.scene, stop);
   auditRun(run, options.audit, stop);
+  if (options.realTime) {
+    run.trajectory.stage.timeMap = {};
+  }
   AtomicFile file(options.output);
   ExportSettings settings{.program = "careen " CAREEN_VERSION};
   settings.within = options.within.value_or(settings.within);
@@ -150,6 +158,8 @@ void addExport(const CommandLine& commandLine) {
       .required();
   command.add("--within", options->within,
               "How far a .glb may be off between its keys, in m and rad (default: 1e-4)");
+  command.addFlag("--real-time", options->realTime,
+                  "A .glb shows the whole run in the scene's time, in place of the film's");
   command.add("--every", options->every, "Time between two poses of a table [s] (default: 1/60)");
   command.addFlag("--forces", options->forces,
                   "The forces of contact in place of poses, as a table, or as a plot: .svg and .png");

@@ -5,6 +5,7 @@
 
 #include <ctime>
 #include <string>
+#include <system_error>
 
 #include "core/system/cleanup.h"
 
@@ -41,10 +42,17 @@ Interruption::Interruption() {
     }
   }
   pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
-  waiter_ = std::thread([this] { wait(); });
+  try {
+    waiter_ = std::thread([this] { wait(); });
+  } catch (const std::system_error&) {  // no threads here: signals do what they always did
+    pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
+  }
 }
 
 Interruption::~Interruption() {
+  if (!waiter_.joinable()) {
+    return;
+  }
   over_ = true;
   pthread_kill(waiter_.native_handle(), kWake);
   waiter_.join();

@@ -115,7 +115,7 @@ std::string reportJunit(const Comparison& comparison) {
 }
 
 std::string reportJunitOfError(const Comparison& comparison, const std::string& error) {
-  return xmlOf({{.name = "verdict", .failure = {}, .warning = {}, .error = error}}, comparison);
+  return xmlOf({TestCase{.name = "verdict", .failure = {}, .warning = {}, .error = error}}, comparison);
 }
 
 }  // namespace careen

@@ -303,6 +303,7 @@ class GlbWriter {
                     {"generator", settings_.program},
                     {"extras",
                      {{"within", settings_.within},
+                      {"marks", materials_.marks},
                       {"position_error_m", file_.positionError},
                       {"attitude_error_rad", file_.attitudeError},
                       {"scene_hash", run_.sceneHash()},

@@ -1,13 +1,12 @@
 #include "film/manifest.h"
 
-#include <gnu/libc-version.h>
-
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/system/file.h"
+#include "core/system/release.h"
 #include "film/frame_range.h"
 
 namespace careen {
@@ -102,7 +101,7 @@ std::string librariesHere() {
   return "Eigen " + version(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION) +
          ", nlohmann-json " +
          version(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH) +
-         ", glibc " + gnu_get_libc_version();
+         ", " + cLibrary();
 }
 
 std::optional<FilmManifest> readManifest(const std::filesystem::path& folder) {

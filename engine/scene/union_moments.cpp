@@ -90,7 +90,7 @@ Face around(std::vector<Vec3> points, const Plane& plane) {
   const auto from = [&](const Vec3& point) {
     return Around{.along = dot(u, Vec3(point - middle)), .across = dot(v, Vec3(point - middle))};
   };
-  std::sort(points.begin(), points.end(), [&](const Vec3& x, const Vec3& y) {
+  std::stable_sort(points.begin(), points.end(), [&](const Vec3& x, const Vec3& y) {
     const Around a = from(x);
     const Around b = from(y);
     return a.isSecondHalf() != b.isSecondHalf() ? b.isSecondHalf()

@@ -166,6 +166,26 @@ TEST_F(Export, takesScenesAndTablesToo) {
   EXPECT_NE(refusal({"expected.csv", "--out", "b2.glb"}).find("expected --scene"), std::string::npos);
 }
 
+// In the film a tenth of a second takes a whole one, and what follows is not shown.
+TEST_F(Export, showsTheWholeRunInTheScenesTimeWhereAsked) {
+  folder_.write("slow.json", std::string(R"({ "careen": 1, "duration": 0.6, "gravity": [0, 0, -9.81],
+    "boxes": [ { "half_extents": [0.2, 0.1, 0.1], "mass": 1, "position": [0, 0, 2] } ],
+    "film": { "time": [[0, 0], [1, 0.1]] } })"));
+  ASSERT_EQ(careen({"simulate", "slow.json", "-o", "slow.careen"}).exitCode, 0);
+  const auto lastKey = [this](std::vector<std::string> with) {
+    with.insert(with.begin(), {"export", "slow.careen", "--out", "slow.glb"});
+    EXPECT_EQ(careen(with).exitCode, 0);
+    const Glb glb(textOf(folder_ / "slow.glb"));
+    const nlohmann::json& channel = glb.json.at("animations").at(0).at("samplers").at(0);
+    return glb.floats(channel.at("input").get<std::size_t>()).back();
+  };
+  EXPECT_FLOAT_EQ(lastKey({}), 1);
+  EXPECT_FLOAT_EQ(lastKey({"--real-time"}), 0.6F);
+  EXPECT_NE(
+      refusal({"run.careen", "--out", "f.csv", "--real-time"}).find("--real-time: found the file f.csv"),
+      std::string::npos);
+}
+
 TEST_F(Export, refusesWhatItCannotDo) {
   EXPECT_NE(
       refusal({"run.careen", "--out", "film.usd"}).find("'film.usd', expected a file that ends in .glb"),

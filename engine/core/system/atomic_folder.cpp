@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::error_code exchange(const fs::path& one, const fs::path& other) {
+#ifdef RENAME_EXCHANGE
   if (renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) == 0) {
     return {};
   }
@@ -25,6 +26,9 @@ std::error_code exchange(const fs::path& one, const fs::path& other) {
     return error;
   }
   // This file system cannot.
+#else
+  std::error_code error;
+#endif
   const fs::path aside = partialPath(one);
   fs::rename(other, aside, error);
   if (error) {

@@ -1,5 +1,9 @@
 #include "core/system/release.h"
 
+#if __has_include(<gnu/libc-version.h>)
+#include <gnu/libc-version.h>
+#endif
+
 #include <charconv>
 #include <fstream>
 #include <sstream>
@@ -25,6 +29,14 @@ std::string_view drawingPackages() {
   std::stringstream text;
   text << std::ifstream("/etc/os-release").rdbuf();
   return drawingPackages(text.str());
+}
+
+std::string cLibrary() {
+#if __has_include(<gnu/libc-version.h>)
+  return std::string("glibc ") + gnu_get_libc_version();
+#else
+  return "musl";
+#endif
 }
 
 }  // namespace careen

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace careen {
@@ -10,5 +11,8 @@ namespace careen {
 std::string_view drawingPackages(std::string_view osRelease);
 /// Those of this machine.
 std::string_view drawingPackages();
+
+/// "glibc 2.36": whose functions the program uses.
+std::string cLibrary();
 
 }  // namespace careen

@@ -10,7 +10,7 @@ constexpr int kYields = 1024;  // some 0.5 ms, then it sleeps
 
 }  // namespace
 
-void Team::pause(int looks) {
+void Team::pause([[maybe_unused]] int looks) {
 #if defined(__x86_64__)
   if (looks < kPauses) {
     __builtin_ia32_pause();

@@ -37,7 +37,7 @@ void ManifoldNormals::align(std::span<const ContactFeature> features, std::span<
     const auto end = std::find_if(begin, ofPairs_.end(), [&](const OfPair& each) {
       return each.first != begin->first || each.second != begin->second;
     });
-    alignPair(std::span(begin, end), features, contacts);
+    alignPair({&*begin, static_cast<std::size_t>(end - begin)}, features, contacts);
     begin = end;
   }
 }

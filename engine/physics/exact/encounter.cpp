@@ -111,7 +111,7 @@ std::vector<int> Encounter::ranks() const {
 std::span<const EncounterBody> Encounter::boxes() const {
   const auto walls = std::find_if(bodies.begin(), bodies.end(),
                                   [](const EncounterBody& body) { return !body.mover->isBox(); });
-  return {bodies.begin(), walls};
+  return std::span(bodies).first(static_cast<std::size_t>(walls - bodies.begin()));
 }
 
 // A wall's offset is no larger than the body's part.

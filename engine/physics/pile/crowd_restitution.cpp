@@ -177,7 +177,7 @@ void CrowdRestitution::reflect(double threshold) {
       projectAll(threshold);
       continue;
     }
-    const std::span<const int> elastic(approaching.begin(), others);
+    const auto elastic = std::span(approaching).first(static_cast<std::size_t>(others - approaching.begin()));
     project(elastic);
     for (const int p : elastic) {
       ReachedPoint& point = reached_[p];

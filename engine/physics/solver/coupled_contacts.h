@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -83,7 +84,9 @@ class CoupledContacts {
     std::pair<int, int> bodies;
     std::array<double, 4> numbers{};
     std::size_t listed = 0;
-    auto operator<=>(const Key&) const = default;
+    bool operator<(const Key& other) const {
+      return std::tie(bodies, numbers, listed) < std::tie(other.bodies, other.numbers, other.listed);
+    }
   };
 
   void copyContacts(const ContactProblem& problem);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace careen {
@@ -71,7 +71,10 @@ struct Marks {
   std::array<double, kAxes> inverseMass{};
   std::array<double, 2> speeds{};               // squared
   std::vector<std::array<double, 3>> contacts;  // sorted: friction, normal target, squared arm across normal
-  auto operator<=>(const Marks&) const = default;
+  bool operator<(const Marks& other) const {
+    return std::tie(inverseMass, speeds, contacts) <
+           std::tie(other.inverseMass, other.speeds, other.contacts);
+  }
 };
 
 /// The rows of a joint point along axes of the world, which mirrors turn round.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 namespace careen {
 namespace {
 
@@ -16,6 +18,13 @@ TEST(DrawingPackages, areThoseOfEglFromFourteenOn) {
       drawingPackages("NAME=\"Debian GNU/Linux\"\nVERSION_CODENAME=forky\n"),  // testing names no number
       "libegl1 libegl-mesa0 libgl1-mesa-dri");
   EXPECT_EQ(drawingPackages(""), "libegl1 libegl-mesa0 libgl1-mesa-dri");
+}
+
+TEST(CLibrary, isNamedWithItsVersion) {
+  int major = 0;
+  int minor = 0;
+  EXPECT_EQ(std::sscanf(cLibrary().c_str(), "glibc %d.%d", &major, &minor), 2) << cLibrary();
+  EXPECT_EQ(major, 2);
 }
 
 }  // namespace
