@@ -1,13 +1,15 @@
 #include "render/draw/changed_cells.h"
 
-#include <cstring>
+#include <array>
+#include <bit>
+#include <cstdint>
 
 namespace careen {
 
 void ChangedCells::begin(const View& view, const FrameBlock& block, int width, int height,
                          bool mayBeCompared) {
-  static_assert(sizeof(FrameBlock) % sizeof(float) == 0 && alignof(FrameBlock) == alignof(float));
-  const bool isSame = std::memcmp(&block, &block_, sizeof(block)) == 0 && view.eye == eye_;
+  using Bits = std::array<std::uint32_t, sizeof(FrameBlock) / sizeof(std::uint32_t)>;
+  const bool isSame = std::bit_cast<Bits>(block) == std::bit_cast<Bits>(block_) && view.eye == eye_;
   block_ = block;
   eye_ = view.eye;
   inputs_.reset();

@@ -82,14 +82,13 @@ std::vector<float> triangles(const std::vector<Surface>& surfaces, double tileSi
 
 }  // namespace
 
-SurfaceBatch::SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders,
-                           const std::vector<std::string>& light, std::vector<Surface> surfaces,
-                           double tileSize)
+SurfaceBatch::SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders, std::vector<std::string> light,
+                           std::vector<Surface> surfaces, double tileSize)
     : gl_(gl),
       array_(makeVertexArray(gl)),
       vertices_(gl, {{0, 3}, {1, 3}, {2, 4}, {3, 4}, {4, 4}, {5, 1}, {6, 4}}, VertexBuffer::Step::kVertex),
       shaders_(shaders),
-      light_(light),
+      light_(std::move(light)),
       depthProgram_(linkProgram(gl, shaders, {"depth.vert", "black.frag"})),
       tileSize_(tileSize) {
   replace(std::move(surfaces));

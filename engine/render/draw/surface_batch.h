@@ -17,7 +17,7 @@ struct Gl;
 /// Floor and walls. Vertices are recomputed only when the eye has moved, or walls have.
 class SurfaceBatch {
  public:
-  SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders, const std::vector<std::string>& light,
+  SurfaceBatch(const Gl& gl, const std::filesystem::path& shaders, std::vector<std::string> light,
                std::vector<Surface> surfaces, double tileSize);
   const std::vector<Surface>& surfaces() const { return surfaces_; }
   /// Others than before: some have moved.
