@@ -45,6 +45,14 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     file(REMOVE_RECURSE ${folder})
   endforeach()
 endforeach()
+# The manual is listed where the desktop looks for documents.
+if(CPACK_COMPONENTS_ALL MATCHES documentation)
+  set(html /usr/share/doc/careen-doc/html)
+  file(WRITE ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/documentation/usr/share/doc-base/careen-doc.careen
+       "Document: careen\nTitle: careen: films of rigid boxes\nAuthor: The owner of careen\n"
+       "Abstract: How to simulate boxes that tumble and collide, film them and check the runs.\n"
+       "Section: Science/Physics\n\nFormat: HTML\nIndex: ${html}/index.html\nFiles: ${html}/*.html\n")
+endif()
 # cpack's own scripts do what the trigger does already.
 file(WRITE ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/library/usr/share/lintian/overrides/${CPACK_DEBIAN_LIBRARY_PACKAGE_NAME}
      "${CPACK_DEBIAN_LIBRARY_PACKAGE_NAME}: maintscript-calls-ldconfig\n")

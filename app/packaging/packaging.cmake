@@ -65,6 +65,15 @@ and pictures as arrays of NumPy.")
       "python3 (>= 3.${CAREEN_PYTHON_MINOR}), python3 (<< 3.${next}), python3-numpy")
 endif()
 
+if(CAREEN_CMARK)
+  careen_package(documentation careen-doc doc "rigid boxes that tumble and collide - manual"
+      "careen simulates rigid boxes that tumble, collide, slide and stack, and
+films them frame by frame without a display. This is its manual as HTML, with
+its pictures.")
+  set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SHLIBDEPS OFF)
+endif()
+
 # What Debian asks of a package besides: a compressed man page, a change log, the licence.
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/debian_files.cmake)
 set(CPACK_SOURCE_CHANGES ${PROJECT_SOURCE_DIR}/assets/manual/changes.md)

@@ -86,6 +86,54 @@ TEST(Manual, readmeIsShort) {
   EXPECT_LE(words.size(), 1200U);
 }
 
+// The sentences of a page: of paragraphs and items of lists, without code, tables and headings. A code within
+// a sentence is one word.
+std::vector<std::string> sentencesOf(const std::string& page) {
+  std::vector<std::string> paragraphs = {""};
+  bool isCode = false;
+  for (const std::string& line : linesOf(page)) {
+    const std::string text = line.substr(std::min(line.find_first_not_of(' '), line.size()));
+    const bool isFence = text.starts_with("```");
+    isCode = isCode != isFence;
+    if (isCode || isFence || text.empty() || text.find_first_of("|#!") == 0) {
+      paragraphs.emplace_back();
+    } else if (text.starts_with("- ")) {
+      paragraphs.push_back(text.substr(2));
+    } else {
+      paragraphs.back().append(paragraphs.back().empty() ? "" : " ").append(text);
+    }
+  }
+  std::vector<std::string> sentences;
+  for (std::string text : paragraphs) {
+    text = std::regex_replace(text, std::regex("`[^`]*`"), "Code");
+    text = std::regex_replace(text, std::regex(R"(\[([^\]]*)\]\([^)]*\))"), "$1");
+    text = std::regex_replace(text, std::regex(R"re(([.!?][)"*]*) +(?=[^a-z ]|careen ))re"), "$1\n");
+    const std::vector<std::string> parts = linesOf(text);
+    sentences.insert(sentences.end(), parts.begin(), parts.end());
+  }
+  return sentences;
+}
+
+TEST(Manual, sentencesAreShort) {
+  constexpr std::ptrdiff_t kMostWords = 30;
+  std::vector<fs::path> all = pages();
+  all.push_back(kSource / "README.md");
+  std::size_t sentences = 0;
+  for (const fs::path& page : all) {
+    for (const std::string& sentence : sentencesOf(textOf(page))) {
+      std::istringstream stream(sentence);
+      const std::ptrdiff_t words =
+          std::count_if(std::istream_iterator<std::string>(stream), {}, [](const std::string& word) {
+            return std::any_of(word.begin(), word.end(),
+                               [](unsigned char letter) { return std::isalnum(letter) != 0; });
+          });
+      EXPECT_LE(words, kMostWords) << page << ": " << sentence;
+      ++sentences;
+    }
+  }
+  EXPECT_GT(sentences, 1000U);
+}
+
 TEST(Manual, linksLeadSomewhere) {
   std::vector<fs::path> all = pages();
   all.push_back(kSource / "README.md");

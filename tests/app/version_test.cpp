@@ -31,7 +31,7 @@ TEST(Version, standsInEveryOutput) {
       {"truth", "run.careen", "--out", "truth", "--channels", "depth", "--frames", "0", "--size", "32x18"});
   careen({"compare", "run.careen", "run.careen", "--out", "compared"});
   careen({"dice", "--throws", "1", "--out", "dice"});
-  const std::string scene = std::string(CAREEN_SOURCE_DIR) + "/assets/scenes/careen.json";
+  const std::string scene = CAREEN_SOURCE_DIR "/assets/scenes/careen.json";
   careen({"validate", "toss.csv", "--scene", scene, "--start", "first", "--no-plots"});
   careen({"study", "tumble-generic", "--quick", "--no-plots", "--methods", "exact", "--out", "study"});
   for (const char* const file :

@@ -69,28 +69,30 @@ Mutations boxShaderMutations() {
 
 Mutations surfaceShaderMutations() {
   const char* const frag = "surface.frag";
+  const char* const tiles = "surface_tiles.frag";
+  const char* const skirted = "surface_skirted.frag";
   const char* const vert = "surface.vert";
   return {
-      in(frag, "joints 30 % wider", "kJoint = 0.02", "kJoint = 0.026"),
-      in(frag, "skirting board 5 % higher", "kSkirting = 0.22", "kSkirting = 0.231"),
+      in(tiles, "joints 30 % wider", "kJoint = 0.02", "kJoint = 0.026"),
+      in(skirted, "skirting board 5 % higher", "kSkirting = 0.22", "kSkirting = 0.231"),
       in(frag, "rim 20 % wider", "kRim = 0.05", "kRim = 0.06"),
-      in(frag, "tiles the other way round", "1.0 + surfaceLook.z", "1.0 - surfaceLook.z"),
-      in(frag, "tiles in stripes", "wave.x * wave.y", "wave.x"),
-      in(frag, "joints lighter", "0.55 * base", "0.65 * base"),
-      in(frag, "joints one way only", "(1.0 - joints.x) * (1.0 - joints.y)", "(1.0 - joints.x)"),
-      in(frag, "joints not averaged", "max(fwidth(onSurface), 1e-5);\n  vec2 from",
+      in(tiles, "tiles the other way round", "1.0 + surfaceLook.z", "1.0 - surfaceLook.z"),
+      in(tiles, "tiles in stripes", "wave.x * wave.y", "wave.x"),
+      in(tiles, "joints lighter", "0.55 * base", "0.65 * base"),
+      in(tiles, "joints one way only", "(1.0 - joints.x) * (1.0 - joints.y)", "(1.0 - joints.x)"),
+      in(tiles, "joints not averaged", "max(fwidth(onSurface), 1e-5);\n  vec2 from",
          "vec2(1e-3);\n  vec2 from"),
-      in(frag, "skirting board darker", "mix(1.0, 0.62, board)", "mix(1.0, 0.58, board)"),
-      in(frag, "no skirting board", "mix(1.0, 0.62, board)", "1.0"),
-      in(frag, "lip lighter", "0.4, lip", "0.6, lip"),
+      in(skirted, "skirting board darker", "mix(1.0, 0.62, board)", "mix(1.0, 0.58, board)"),
+      in(skirted, "no skirting board", "mix(1.0, 0.62, board)", "1.0"),
+      in(skirted, "lip lighter", "0.4, lip", "0.6, lip"),
       in(frag, "rim lighter", "1.0 - 0.45 * rim()", "1.0 - 0.35 * rim()"),
       in(frag, "corners lighter", "1.0 - occlusion.x * edges", "1.0 - 0.83 * occlusion.x * edges"),
       in(frag, "corners' shade narrower", "exp(-1.6 *", "exp(-1.9 *"),
       in(frag, "no shade of corners", "albedo *= openness();", ""),
       in(frag, "one corner less", "shade.x * shade.y * shade.z", "shade.y * shade.z"),
       in(frag, "no rim", "albedo *= 1.0 - 0.45 * rim()", "albedo *= 1.0"),
-      in(frag, "tiles as rough as walls", "roughness = surfaceLook.x;", ""),
-      in(frag, "normal's sign", "roughness, surfaceNormal", "roughness, -surfaceNormal"),
+      in(tiles, "as rough as walls", "surfaceLook.x;", "surfaceLook.y;"),
+      in(frag, "normal's sign", "roughnessHere(), surfaceNormal", "roughnessHere(), -surfaceNormal"),
       in(frag, "surfaces not occluded", "ambient(albedo, surfaceNormal) * opennessHere()",
          "ambient(albedo, surfaceNormal)"),
       in(frag, "edge's direction", "vec2(dFdx(linear), dFdy(linear))", "vec2(-dFdx(linear), -dFdy(linear))"),

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
-#include "render/draw/face_records.h"
 #include "render/gl/gl.h"
 #include "render/gl/shader.h"
 #include "render/gl/texture_units.h"
@@ -70,40 +70,50 @@ unsigned BoxBatch::programThat(const char* write) const {
   return linked;
 }
 
-void BoxBatch::place(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces,
-                     const FaceShadows& shadows, const FaceNeighbors& neighbors, const Vec3& towardsLight,
-                     const Vec3& eye) {
-  FaceRecords records({.boxes = boxes,
-                       .faces = faces,
-                       .shadows = shadows,
-                       .neighbors = light_.neighbors ? &neighbors : nullptr,
-                       .towardsLight = light_.light ? std::optional(towardsLight) : std::nullopt,
-                       .eye = eye});
+void BoxBatch::place(PlacedBoxes placed) {
+  texels_ =
+      light_.neighbors ? neighborTexels(placed.boxes, *placed.neighbors, placed.eye) : std::vector<float>();
+  placed.texels = texels_;
+  placed.neighbors = light_.neighbors ? placed.neighbors : nullptr;
+  placed.towardsLight = light_.light ? placed.towardsLight : std::nullopt;
+  FaceRecords records(placed);
   records.add();
-  const auto fill = [&](Mesh& mesh, const VertexRecords& of) {
-    gl_.BindVertexArray(mesh.array);
-    mesh.vertices.fill(of.vertices);
-    mesh.triangleEnds = of.triangleEnds;
-    mesh.outlineEnds = of.outlineEnds;
-    for (std::size_t& end : mesh.outlineEnds) {
+  lit_.records = std::move(records.lit);
+  dark_.records = std::move(records.dark);
+  shaded_.records = std::move(records.shaded);
+  shadows_.records = std::move(records.cast);
+}
+
+void BoxBatch::fill(const CellInputs* inputs, const PictureCells::Set& cells) {
+  for (Mesh* const mesh : {&lit_, &dark_, &shaded_, &shadows_}) {
+    VertexRecords& of = mesh->records;
+    if (inputs != nullptr) {  // of one layer
+      of.triangles = of.pieces.trianglesIn(of.triangles, *inputs, cells);
+      of.outlines = of.pieces.trianglesIn(of.outlines, *inputs, cells);
+      of.triangleEnds = {of.triangles.size()};
+      of.outlineEnds = {of.outlines.size()};
+    }
+    gl_.BindVertexArray(mesh->array);
+    mesh->vertices.fill(of.vertices);
+    mesh->triangleEnds = of.triangleEnds;
+    mesh->outlineEnds = of.outlineEnds;
+    for (std::size_t& end : mesh->outlineEnds) {
       end += of.triangles.size();
     }
-    std::vector<std::uint32_t> indices = of.triangles;
+    std::vector<std::uint32_t> indices = std::move(of.triangles);
     indices.insert(indices.end(), of.outlines.begin(), of.outlines.end());
-    mesh.indices.fill(indices);
-  };
-  fill(lit_, records.lit);
-  fill(dark_, records.dark);
-  fill(shaded_, records.shaded);
-  fill(shadows_, records.cast);
+    mesh->indices.fill(indices);
+    of = {};
+  }
   if (light_.neighbors) {
-    fillNeighbors(neighborTexels(boxes, neighbors, eye));
+    fillNeighbors();
   }
 }
 
-void BoxBatch::fillNeighbors(std::vector<float> texels) const {
+void BoxBatch::fillNeighbors() const {
   constexpr std::size_t kRow = std::size_t{1} << kTexturePower;
-  const std::size_t rows = std::max<std::size_t>(1, (texels.size() / 4 + kRow - 1) / kRow);
+  const std::size_t rows = std::max<std::size_t>(1, (texels_.size() / 4 + kRow - 1) / kRow);
+  std::vector<float> texels = texels_;
   texels.resize(4 * kRow * rows);
   gl_.ActiveTexture(GL_TEXTURE0 + kNeighborUnit);
   gl_.BindTexture(GL_TEXTURE_2D, neighborTexture_);

@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/draw/drawn_box.h"
-#include "render/draw/neighbors.h"
-#include "render/draw/shadow_pairs.h"
+#include "render/draw/face_records.h"
 #include "render/gl/vertex_array.h"
 
 namespace careen {
@@ -31,10 +29,11 @@ class BoxBatch {
  public:
   BoxBatch(const Gl& gl, const std::filesystem::path& shaders, const LightShaders& light);
 
-  /// What is drawn from now on. `shadows` are of these faces, and so are the lists of `neighbors`, which are
-  /// ignored if boxes do not occlude boxes.
-  void place(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, const FaceShadows& shadows,
-             const FaceNeighbors& neighbors, const Vec3& towardsLight, const Vec3& eye);
+  /// What is drawn from now on, once it is filled in. `texels` and `towardsLight` are ignored if boxes do not
+  /// occlude boxes, or there is no light.
+  void place(PlacedBoxes placed);
+  /// Only what is in these cells of the inputs, if there are any.
+  void fill(const CellInputs* inputs, const PictureCells::Set& cells);
 
   bool hasShaded() const { return shaded_.indices.count() > 0; }
   /// Boxes of one moment are a layer; there is one at least, be it empty. What a layer draws is not seen
@@ -60,6 +59,7 @@ class BoxBatch {
     unsigned array;
     VertexBuffer vertices;
     IndexBuffer indices;
+    VertexRecords records;
     std::vector<std::size_t> triangleEnds;  // of the layers' indices
     std::vector<std::size_t> outlineEnds;   // then come the same faces in fewer triangles
   };
@@ -67,12 +67,13 @@ class BoxBatch {
   void drawOutlines(const Mesh& mesh, std::size_t layer) const;
   void draw(const Mesh& mesh, std::size_t from, std::size_t to) const;
   void moveBehind(std::size_t steps) const;
-  void fillNeighbors(std::vector<float> texels) const;
+  void fillNeighbors() const;
   unsigned programThat(const char* write) const;
 
   const Gl& gl_;
   std::filesystem::path shaders_;
   LightShaders light_;
+  std::vector<float> texels_;
   Mesh lit_;
   Mesh dark_;
   Mesh shaded_;

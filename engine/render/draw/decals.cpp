@@ -55,6 +55,42 @@ std::vector<Vec3> widened(const std::vector<Vec3>& outline, const Vec3& normal, 
   return result;
 }
 
+double heightOver(const Surface& surface, const DrawnBox& box) {
+  return surface.normal.dot(box.pose.position - surface.outline[0]);
+}
+
+// [m] A small piece of area A at a height z covers A z / (pi r^3) at most, seen from a distance r.
+double reachOf(const DrawnBox& box, double height, double least) {
+  return height > 0 ? std::cbrt(largestSilhouette(box) * height / (std::numbers::pi * least)) : 0;
+}
+
+// The part of a surface no farther than that from the box's centre.
+std::vector<Vec3> outlineNear(const DrawnBox& box, const Surface& surface, double reach) {
+  const double height = heightOver(surface, box);
+  if (reach <= std::max(height, 0.0)) {
+    return {};
+  }
+  const double side = std::max(std::sqrt(reach * reach - std::max(height, 0.0) * std::max(height, 0.0)),
+                               box.halfExtents.norm());
+  const Vec3 centre = box.pose.position - height * surface.normal;
+  const Vec3 across = side * surface.across;
+  const Vec3 along = side * surface.along;
+  // An octagon about the circle.
+  constexpr double kShort = 0.4142135623730951;  // tan(pi / 8)
+  std::vector<Vec3> outline;
+  for (const auto& [x, y] : {std::pair{1.0, -kShort},
+                             {1.0, kShort},
+                             {kShort, 1.0},
+                             {-kShort, 1.0},
+                             {-1.0, kShort},
+                             {-1.0, -kShort},
+                             {-kShort, -1.0},
+                             {kShort, -1.0}}) {
+    outline.emplace_back(centre + x * across + y * along);
+  }
+  return clippedTo(std::move(outline), surface);
+}
+
 }  // namespace
 
 std::vector<Vec3> shadowOutline(const DrawnBox& box, const Surface& surface, const Vec3& towards,
@@ -112,35 +148,11 @@ std::vector<Vec3> shadowOutline(const DrawnBox& box, const Surface& surface, con
 std::vector<Vec3> occlusionOutline(const DrawnBox& box, const Surface& surface, double least, double within) {
   const Vec3 axes = box.pose.worldFromBody.transpose() * surface.normal;
   const double extent = axes.cwiseAbs().dot(box.halfExtents);
-  const double height = surface.normal.dot(box.pose.position - surface.outline[0]);
-  if (height + extent <= 0) {
-    return {};
-  }
-  // A small piece of area A at a height z covers A z / (pi r^3) at most, seen from a distance r.
-  const double reach =
-      std::min(within, std::cbrt(largestSilhouette(box) * (height + extent) / (std::numbers::pi * least)));
-  if (reach <= height) {
-    return {};
-  }
-  const double side = std::max(std::sqrt(reach * reach - std::max(height, 0.0) * std::max(height, 0.0)),
-                               box.halfExtents.norm());
-  const Vec3 centre = box.pose.position - height * surface.normal;
-  const Vec3 across = side * surface.across;
-  const Vec3 along = side * surface.along;
-  // An octagon about the circle.
-  constexpr double kShort = 0.4142135623730951;  // tan(pi / 8)
-  std::vector<Vec3> outline;
-  for (const auto& [x, y] : {std::pair{1.0, -kShort},
-                             {1.0, kShort},
-                             {kShort, 1.0},
-                             {-kShort, 1.0},
-                             {-1.0, kShort},
-                             {-1.0, -kShort},
-                             {-kShort, -1.0},
-                             {kShort, -1.0}}) {
-    outline.emplace_back(centre + x * across + y * along);
-  }
-  return clippedTo(std::move(outline), surface);
+  return outlineNear(box, surface, std::min(within, reachOf(box, heightOver(surface, box) + extent, least)));
+}
+
+std::vector<Vec3> farOcclusionOutline(const DrawnBox& box, const Surface& surface, double least) {
+  return outlineNear(box, surface, reachOf(box, heightOver(surface, box), least));
 }
 
 void Decals::addFan(std::size_t corners) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "render/draw/cell_inputs.h"
 #include "render/draw/drawn_box.h"
 #include "view/surfaces.h"
 
@@ -19,11 +20,16 @@ std::vector<Vec3> shadowOutline(const DrawnBox& box, const Surface& surface, con
 /// box's centre than `within` [m]; as shadowOutline.
 std::vector<Vec3> occlusionOutline(const DrawnBox& box, const Surface& surface, double least, double within);
 
+/// The part of a surface where so much of what it sees is covered by what is as large as the box, but at its
+/// centre; as shadowOutline.
+std::vector<Vec3> farOcclusionOutline(const DrawnBox& box, const Surface& surface, double least);
+
 /// Vertices of outlines, each with what belongs to all its vertices, and triangles between them.
 struct Decals {
   std::vector<float> vertices;
   std::vector<std::uint32_t> triangles;
   std::uint32_t count = 0;  ///< of vertices
+  PieceVertices pieces;     ///< if there are inputs of cells
 
   /// Appends the triangles of a convex outline whose vertices follow.
   void addFan(std::size_t corners);

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "view/materials.h"
-
 namespace careen {
 namespace {
 
+constexpr double kThinnest = 1.5;  // [px] of springs
 const Vec3 kSteel(0.30, 0.32, 0.35);
 
 // The end's point is from the centre of mass, a pose of the box's middle.
@@ -110,6 +109,26 @@ std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::sp
     appendBoxes(boxes, world, stage, poses.subspan(first, count), before, springThickness);
   }
   return boxes;
+}
+
+void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAngle) {
+  for (DrawnBox& box : boxes) {
+    if (!box.marked) {
+      const double least = 0.5 * kThinnest * pixelAngle * (box.pose.position - eye).norm();
+      box.halfExtents.y() = std::max(box.halfExtents.y(), least);
+      box.halfExtents.z() = std::max(box.halfExtents.z(), least);
+    }
+  }
+}
+
+double returnLight(std::vector<DrawnBox>& boxes, const Materials& materials) {
+  double returned = 0;
+  for (DrawnBox& box : boxes) {
+    const Vec3 albedo = (1 - materials.ownColor) * materials.boxColor + materials.ownColor * box.color;
+    box.returned = materials.bounce * albedo;
+    returned += kReturnedToBoxes * box.returned.mean() / static_cast<double>(boxes.size());
+  }
+  return returned;
 }
 
 bool haveCopies(std::span<const DrawnBox> boxes) {

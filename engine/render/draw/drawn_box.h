@@ -7,8 +7,11 @@
 
 #include "core/math/pose.h"
 #include "stage/run_setup.h"
+#include "view/materials.h"
 
 namespace careen {
+
+inline constexpr double kReturnedToBoxes = 1.5;  ///< boxes are lit from more sides than surfaces
 
 /// One box to draw. Boxes of a run have marks on their faces; springs and boxes that are parts of a body have
 /// none.
@@ -29,6 +32,12 @@ struct DrawnBox {
 std::vector<DrawnBox> drawnBoxes(const World& world, const Stage& stage, std::span<const Pose> poses,
                                  double springThickness);
 
+/// Makes springs as thick as 1.5 pixels at least, or there would be gaps; `pixelAngle` [rad].
+void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAngle);
+
+/// Sets what comes back from boxes; the mean of what comes back from one to others.
+double returnLight(std::vector<DrawnBox>& boxes, const Materials& materials);
+
 /// Whether any is shown several times.
 bool haveCopies(std::span<const DrawnBox> boxes);
 
@@ -46,6 +55,12 @@ struct DrawnFace {
   Vec3 across = Vec3::Zero();  ///< [m] from the centre to the middle of an edge
   Vec3 along = Vec3::Zero();   ///< [m] likewise, perpendicular to it
 };
+
+/// Its corners, counterclockwise or clockwise.
+inline std::array<Vec3, 4> outlineOf(const DrawnFace& face) {
+  return {face.centre - face.across - face.along, face.centre + face.across - face.along,
+          face.centre + face.across + face.along, face.centre - face.across + face.along};
+}
 
 /// [px] Faces thinner than this are lit more and more like the widest face of their box: a face thinner than
 /// a pixel is a row of dots, which then do not stand out.

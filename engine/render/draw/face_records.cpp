@@ -18,6 +18,8 @@ constexpr std::size_t kFewBoxes = 50;  // more have no grid, for its price
 
 constexpr std::size_t kTexelsPerBox = 5;
 constexpr std::size_t kFarCount = 64;                     // in a length: near ones + kFarCount * far ones
+constexpr std::size_t kFaceRecord = 27;                   // numbers of a vertex, see box.vert
+constexpr std::size_t kListPlace = 22;                    // which of them tells where its list is
 constexpr std::array<int, 6> kPips = {1, 6, 2, 5, 3, 4};  // by side; opposite faces add up to seven
 
 // Does something with the points of a face's grid: calls with the point and its place on the face, −1 … 1.
@@ -55,6 +57,22 @@ Vec3 eyeFoot(const DrawnBox& box, int axis, const Vec3& eye) {
   const Vec3 from = box.pose.worldFromBody.transpose() * (eye - box.pose.position);
   return {from[(axis + 1) % 3], from[(axis + 2) % 3],
           2 * box.halfExtents[axis] / (std::abs(from[axis]) + box.halfExtents[axis])};
+}
+
+// An outline of a face and of all places that box_shrunk.vert may move it to.
+std::vector<Vec3> shrinkingOutline(const DrawnFace& face, const Vec3& eye, double angle) {
+  const std::array<Vec3, 4> at = outlineOf(face);
+  std::vector<Vec3> outline(at.begin(), at.end());
+  if (angle > 0) {  // all edges of a prism
+    const auto moved = [&](std::size_t i) {
+      return Vec3(at.at(i) - angle * (at.at(i) - eye).norm() * face.normal);
+    };
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const std::size_t next = (i + 1) % at.size();
+      outline.insert(outline.end(), {at.at(i), moved(i), moved(next), at.at(next)});
+    }
+  }
+  return outline;
 }
 
 }  // namespace
@@ -108,6 +126,7 @@ FaceRecords::FaceRecords(const PlacedBoxes& placed)
     : in_(placed),
       isFine_(placed.boxes.size()),
       isShaded_(placed.faces.size()),
+      pieces_(placed.faces.size()),
       zonogons_(placed.boxes.size()) {
   if (in_.boxes.size() <= kFewBoxes) {
     findFine();
@@ -166,10 +185,41 @@ void FaceRecords::appendAbout(std::vector<float>& vertices, double pips, std::si
                               bool withList) const {
   vertices.push_back(static_cast<float>(pips));
   vertices.push_back(static_cast<float>(in_.faces[face].width));
-  const std::size_t lists = kTexelsPerBox * in_.boxes.size();
   const FaceNeighbors::List list = withList ? in_.neighbors->lists[face] : FaceNeighbors::List();
-  vertices.push_back(static_cast<float>(lists + list.begin));
+  vertices.push_back(0);  // see placeList
   vertices.push_back(static_cast<float>(list.near + kFarCount * list.far));
+}
+
+// Of what a list says, wherever it is and whichever places its boxes have.
+std::uint64_t FaceRecords::listDigest(std::size_t face) const {
+  const FaceNeighbors::List& list = in_.neighbors->lists[face];
+  const std::size_t lists = 4 * kTexelsPerBox * in_.boxes.size();
+  std::uint64_t all = digest(in_.texels.subspan(lists + 4 * (list.begin + list.near), 4 * list.far));
+  for (const FaceNeighbors::Entry& entry : in_.neighbors->near(face)) {
+    const auto weight = static_cast<float>(entry.weight);
+    all = digest(in_.texels.subspan(4 * kTexelsPerBox * entry.box, 4 * kTexelsPerBox),
+                 digest(std::span(&weight, 1), all));
+  }
+  return all;
+}
+
+// Of all vertices from `begun` on; where its list is does not count.
+void FaceRecords::addPiece(VertexRecords& records, std::size_t begun, std::size_t i) {
+  const std::uint64_t program = &records == &lit ? 0 : &records == &dark ? 1 : 2;
+  const std::uint64_t before = hasList(i) ? listDigest(i) + program : program;
+  const std::span<const float> vertices = std::span(records.vertices).subspan(begun);
+  const std::vector<Vec3> outline = shrinkingOutline(in_.faces[i], in_.eye, in_.shrunk);
+  pieces_[i] = in_.inputs->add(outline, in_.reach, digest(vertices, before));
+  records.pieces.add(pieces_[i], records.count);
+}
+
+void FaceRecords::placeList(VertexRecords& records, std::size_t begun, std::size_t face,
+                            bool withList) const {
+  const std::size_t list = withList ? in_.neighbors->lists[face].begin : 0;
+  const std::size_t place = kTexelsPerBox * in_.boxes.size() + list;
+  for (std::size_t at = begun + kListPlace; at < records.vertices.size(); at += kFaceRecord) {
+    records.vertices[at] = static_cast<float>(place);
+  }
 }
 
 void FaceRecords::addFace(std::size_t i) {
@@ -182,6 +232,7 @@ void FaceRecords::addFace(std::size_t i) {
   const double height = box.halfExtents[(axis + 2) % 3];
   VertexRecords& records = in_.shadows.isDark[i] ? dark : isShaded_[i] ? shaded : lit;
   const Vec3 foot = eyeFoot(box, axis, in_.eye);
+  const std::size_t begun = records.vertices.size();
   records.addFace(gridOf(i), face.side % 2 != 0);
   forGrid(box, face, gridOf(i), [&](const Vec3& point, double u, double v) {
     std::vector<float>& vertices = records.vertices;
@@ -197,6 +248,10 @@ void FaceRecords::addFace(std::size_t i) {
     appendAbout(vertices, kPips.at(static_cast<std::size_t>(face.side)), i, hasList(i));
     append(vertices, foot);
   });
+  if (in_.inputs != nullptr) {
+    addPiece(records, begun, i);
+  }
+  placeList(records, begun, i, hasList(i));
 }
 
 const Zonogon& FaceRecords::zonogonOfCaster(std::size_t caster) {
@@ -209,10 +264,15 @@ void FaceRecords::addShadow(const ShadowPair& pair) {
   const DrawnFace& face = in_.faces[pair.face];
   const Zonogon& zonogon = zonogonOfCaster(pair.caster);
   const FaceGrid grid = isFine_[face.box] ? FaceGrid::kFine : FaceGrid::kAtCorners;
+  const std::size_t begun = cast.vertices.size();
   cast.addFace(grid, face.side % 2 != 0);
   forGrid(in_.boxes[face.box], face, grid, [&](const Vec3& point, double, double) {
     appendShadow(cast.vertices, zonogon, point, offsetOf(point, in_.eye), pair.weight);
   });
+  if (in_.inputs != nullptr) {
+    const std::span<const float> vertices = std::span(cast.vertices).subspan(begun);
+    cast.pieces.add(in_.inputs->addAt(pieces_[pair.face], digest(vertices)), cast.count);
+  }
 }
 
 // In place of a box's faces, which are `first` and those that follow it. The boxes that shade or occlude
@@ -248,6 +308,7 @@ void FaceRecords::addMesh(std::size_t first) {
 
 void FaceRecords::addTriangle(VertexRecords& records, const MeshFace& face, const Vec3& color,
                               std::size_t alike, bool withList) {
+  const std::size_t begun = records.vertices.size();
   records.addTriangle();
   for (std::size_t corner = 0; corner < 3; ++corner) {
     std::vector<float>& vertices = records.vertices;
@@ -264,6 +325,7 @@ void FaceRecords::addTriangle(VertexRecords& records, const MeshFace& face, cons
     appendAbout(vertices, 0, alike, withList);
     vertices.insert(vertices.end(), 3, 0.0F);  // its edges are on the outline
   }
+  placeList(records, begun, alike, withList);
 }
 
 void FaceRecords::addShadow(const MeshFace& face, const Zonogon& zonogon, double weight) {

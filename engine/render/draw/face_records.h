@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "render/draw/cell_inputs.h"
 #include "render/draw/drawn_box.h"
 #include "render/draw/mesh_faces.h"
 #include "render/draw/neighbors.h"
@@ -25,6 +26,7 @@ struct VertexRecords {
   std::uint32_t count = 0;
   std::vector<std::size_t> triangleEnds;  ///< of each layer, in `triangles`
   std::vector<std::size_t> outlineEnds;   ///< likewise, in `outlines`
+  PieceVertices pieces;                   ///< if there are inputs of cells
 
   /// Triangles between the points of a face, which follow; counterclockwise seen from outside.
   void addFace(FaceGrid grid, bool mirrored);
@@ -32,14 +34,20 @@ struct VertexRecords {
   void endLayer();
 };
 
-/// What BoxBatch::place is given; `neighbors` is null if boxes do not occlude boxes.
+/// What BoxBatch::place is given; `neighbors` is null if boxes do not occlude boxes, and `texels` is what
+/// neighbors.vert reads of them. Faces are added to `inputs`, if that is not null, with this reach [px] about
+/// them and about where they are drawn shrunk by this angle [rad]; none may be of a mesh then.
 struct PlacedBoxes {
   std::span<const DrawnBox> boxes;
   std::span<const DrawnFace> faces;
   const FaceShadows& shadows;
   const FaceNeighbors* neighbors;
+  std::span<const float> texels;
   std::optional<Vec3> towardsLight;
   Vec3 eye;
+  CellInputs* inputs;
+  double reach;
+  double shrunk;
 };
 
 /// The records of all faces and their shadows. Boxes of one moment are a layer.
@@ -65,6 +73,9 @@ class FaceRecords {
   void appendAbout(std::vector<float>& vertices, double pips, std::size_t face, bool withList) const;
 
   void addFace(std::size_t i);
+  void addPiece(VertexRecords& records, std::size_t begun, std::size_t i);
+  void placeList(VertexRecords& records, std::size_t begun, std::size_t face, bool withList) const;
+  std::uint64_t listDigest(std::size_t face) const;
 
   const Zonogon& zonogonOfCaster(std::size_t caster);
 
@@ -80,6 +91,7 @@ class FaceRecords {
   const PlacedBoxes in_;
   std::vector<bool> isFine_;
   std::vector<bool> isShaded_;
+  std::vector<std::size_t> pieces_;  // of faces
   std::vector<std::optional<Zonogon>> zonogons_;
 };
 

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "core/math/linear_algebra.h"
+#include "render/look/lighting.h"
+#include "stage/light_part.h"
+#include "view/materials.h"
 
 namespace careen {
 
@@ -42,5 +46,26 @@ inline Float16 floats(const Mat4& m) {
   }
   return values;
 }
+
+/// What all shots of a film have in common.
+struct DrawnLook {
+  const Lighting& lighting;
+  const Materials& materials;
+  LightParts parts;
+  std::size_t boxes = 0;  ///< of the world
+  int width = 0;          ///< [px] of what is drawn
+  int height = 0;
+  bool wantsEdges = false;  ///< in alpha
+};
+FrameBlock blockOf(const DrawnLook& look);
+
+/// [1] Width of the curve of shadow.frag that has the variance of a disc, of that disc: sqrt(5) / 2.
+inline constexpr double kCurveOfDisc = 1.118033988749895;
+
+/// [1] Least form factor of a box that is drawn, of so many: the more boxes there are, the more they hide
+/// each other, and the less each has to be drawn far away.
+double leastOcclusion(std::size_t boxes);
+/// [1] Likewise, of what keeps light from a box.
+double leastOnBoxes(std::size_t boxes);
 
 }  // namespace careen

@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <unordered_map>
+
+#include "render/draw/kept_lists.h"
 
 namespace careen {
 namespace {
@@ -189,6 +192,53 @@ class Cells {
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> content_;
 };
 
+// Lists of faces that see none of the boxes that have changed, neither as they were nor as they are.
+class KeptNeighbors {
+ public:
+  KeptNeighbors(const KeptLists& kept, double reach) : kept_(kept), reach_(reach), changed_(kept.changed()) {}
+
+  // Appends the face's list, if it is kept.
+  bool append(const DrawnFace& face, std::size_t index, const DrawnBox& own, FaceNeighbors& neighbors) {
+    const std::optional<std::size_t> before = kept_.before(index);
+    if (!before || !counts(face, own, kept_.neighborsBefore().lists[*before].least)) {
+      return false;
+    }
+    FaceNeighbors::List list = kept_.neighborsBefore().lists[*before];
+    const auto entries = std::span(kept_.neighborsBefore().entries).subspan(list.begin, list.near + list.far);
+    list.begin = neighbors.entries.size();
+    neighbors.lists.push_back(list);
+    for (const FaceNeighbors::Entry& entry : entries) {
+      neighbors.entries.push_back({.box = kept_.boxNow(entry.box), .weight = entry.weight});
+    }
+    return true;
+  }
+
+ private:
+  bool counts(const DrawnFace& face, const DrawnBox& own, float least) {
+    if (face.box != nearOf_) {
+      near_.clear();
+      for (std::size_t i = 0; i < kept_.changed().size(); ++i) {
+        const DrawnBox& box = kept_.changed()[i];
+        if (box.marked && (box.pose.position - own.pose.position).squaredNorm() <= reach_ * reach_) {
+          near_.push_back(i);
+        }
+      }
+      changed_.lookFrom(own.pose.position, near_);
+      nearOf_ = face.box;
+    }
+    found_.clear();
+    changed_.find(face, std::nextafter(least, 0.0F), found_);
+    return found_.empty();
+  }
+
+  const KeptLists& kept_;
+  double reach_;
+  Surroundings changed_;
+  std::optional<std::size_t> nearOf_;
+  std::vector<std::size_t> near_;
+  std::vector<Candidate> found_;
+};
+
 }  // namespace
 
 double largestSilhouette(const DrawnBox& box) {
@@ -196,14 +246,23 @@ double largestSilhouette(const DrawnBox& box) {
   return 4 * Vec3(h.x() * h.y(), h.y() * h.z(), h.z() * h.x()).norm();
 }
 
-FaceNeighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least) {
+FaceNeighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least,
+                          const KeptLists* kept) {
   double reach = 0;  // [m] from a face's nearest point to the centre of a box that it still sees
   double radius = 0;
+  std::optional<KeptNeighbors> keeping;
   for (const DrawnBox& box : boxes) {
     radius = std::max(radius, box.halfExtents.norm());
     reach = std::max(reach, std::sqrt(largestSilhouette(box) / (std::numbers::pi * least)));
   }
   reach += radius;  // from a box's centre, of which a face's points are no farther away than its corners
+  if (kept != nullptr && !kept->isEmpty()) {
+    double farthest = reach;
+    for (const DrawnBox& box : kept->changed()) {
+      farthest = std::max(farthest, std::sqrt(largestSilhouette(box) / (std::numbers::pi * least)) + radius);
+    }
+    keeping.emplace(*kept, farthest);
+  }
   const Cells cells(boxes, std::max(reach, 1e-300));
   const bool hasCopies = haveCopies(boxes);
   FaceNeighbors neighbors;
@@ -211,10 +270,14 @@ FaceNeighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const Drawn
   std::vector<std::size_t> near;
   std::size_t nearOf = boxes.size();
   std::vector<Candidate> found;
-  for (const DrawnFace& face : faces) {
+  for (std::size_t index = 0; index < faces.size(); ++index) {
+    const DrawnFace& face = faces[index];
     const DrawnBox& own = boxes[face.box];
     if (!own.marked) {
       neighbors.lists.push_back({.begin = neighbors.entries.size()});
+      continue;
+    }
+    if (keeping && keeping->append(face, index, own, neighbors)) {
       continue;
     }
     if (face.box != nearOf) {
@@ -244,7 +307,9 @@ FaceNeighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const Drawn
       }
       std::sort(found.begin(), found.end(), coversMore);
     }
-    FaceNeighbors::List list{.begin = neighbors.entries.size()};
+    const bool isFull = found.size() > kMostNear + kMostFar;
+    FaceNeighbors::List list{.begin = neighbors.entries.size(),
+                             .least = isFull ? found.back().covers : static_cast<float>(least)};
     list.near = appendEntries(neighbors.entries, found, kMostNear,
                               [](const Candidate& each) { return 1.0 - each.isFar; });
     list.far =

@@ -11,7 +11,6 @@ namespace careen {
 
 inline constexpr std::size_t kMostNear = 12;
 inline constexpr std::size_t kMostFar = 32;
-inline constexpr double kReturnedToBoxes = 1.5;  ///< boxes are lit from more sides than surfaces
 
 /// Boxes that keep ambient light from faces.
 struct FaceNeighbors {
@@ -25,6 +24,7 @@ struct FaceNeighbors {
     std::size_t begin = 0;
     std::size_t near = 0;
     std::size_t far = 0;
+    float least = 0;  ///< [1] boxes that cover less of what the face sees do not count
   };
   std::vector<Entry> entries;
   std::vector<List> lists;  ///< of each face
@@ -36,9 +36,13 @@ struct FaceNeighbors {
   }
 };
 
+class KeptLists;
+
 /// Of each face the boxes, kMostNear and kMostFar at most, that cover more than about `least` of what it
 /// sees; only marked boxes occlude, and of several copies of a body only the one that covers most.
-FaceNeighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least);
+/// With the same result, what is kept is not looked for again.
+FaceNeighbors neighborsOf(std::span<const DrawnBox> boxes, std::span<const DrawnFace> faces, double least,
+                          const KeptLists* kept = nullptr);
 
 /// [m²] Area of the largest silhouette of a box.
 double largestSilhouette(const DrawnBox& box);

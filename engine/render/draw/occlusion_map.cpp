@@ -16,10 +16,14 @@ namespace {
 
 constexpr int kNearWidth = 2;  // [px] of the picture that a pixel of a map is wide
 constexpr int kFarWidth = 8;
+static_assert(OcclusionMap::kReach == kNearWidth);  // by bilinear interpolation
+constexpr double kFarReach = kNearWidth + kFarWidth;
 constexpr double kFarSize = 2.2;     // [1] of half a box's diagonal: no near part farther away
 constexpr double kFarPixels = 40;    // [px] at least, for the map of what is far knows nothing finer
 constexpr double kBlended = 0.6;     // [1] of that distance, from where the near part fades
 constexpr double kEverywhere = 1e9;  // [m]
+
+enum Kind { kFarPart, kNearPart, kCopyPart };
 
 // How a box counts.
 struct Part {
@@ -115,11 +119,10 @@ OcclusionMap::OcclusionMap(const Gl& gl, const std::filesystem::path& shaders, i
       copyProgram_(linkProgram(gl, shaders, {"far_part.vert", "far_part.frag"})) {}
 
 void OcclusionMap::place(std::span<const DrawnBox> boxes, std::span<const Surface> surfaces,
-                         const OcclusionView& view, const HiddenTiles& hidden, PictureCells& cells) {
-  Decals decals;
-  std::vector<std::uint32_t> farTriangles;
-  std::vector<std::uint32_t> nearTriangles;
-  std::vector<std::uint32_t> copyTriangles;
+                         const OcclusionView& view, const HiddenTiles& hidden, PictureCells& cells,
+                         CellInputs* inputs) {
+  decals_ = {};
+  triangles_ = {};
   const std::vector<double> shares = sharesOf(boxes);
   for (const Surface& surface : surfaces) {
     if (surface.normal.dot(view.eye - surface.outline[0]) <= 0) {
@@ -134,34 +137,50 @@ void OcclusionMap::place(std::span<const DrawnBox> boxes, std::span<const Surfac
       if (outline.empty() || hidden.hide(outline)) {
         continue;
       }
-      cells.mark(outline);
       const Part part = partOf(box, shares[i], view);
-      const auto append = [&](const std::vector<Vec3>& within, std::vector<std::uint32_t>& triangles) {
-        decals.triangles.swap(triangles);
-        appendDecal(decals, within, box, surface, view.eye, part);
-        decals.triangles.swap(triangles);
+      cells.mark(outline);
+      // An outline is drawn, but only in `reached` it changes anything.
+      const auto append = [&](const std::vector<Vec3>& within, const std::vector<Vec3>& reached, int kind) {
+        const std::size_t begun = decals_.vertices.size();
+        decals_.triangles.swap(triangles_.at(static_cast<std::size_t>(kind)));
+        appendDecal(decals_, within, box, surface, view.eye, part);
+        decals_.triangles.swap(triangles_.at(static_cast<std::size_t>(kind)));
+        if (inputs != nullptr) {
+          const std::span<const float> vertices = std::span(decals_.vertices).subspan(begun);
+          const std::uint64_t records = digest(vertices, static_cast<std::uint64_t>(kind));
+          decals_.pieces.add(inputs->add(reached, kind == kFarPart ? kFarReach : kReach, records),
+                             decals_.count);
+        }
       };
       if (part.share < 1) {
-        append(outline, copyTriangles);
+        append(outline, outline, kCopyPart);
         continue;
       }
-      append(outline, farTriangles);
+      const std::vector<Vec3> far = farOcclusionOutline(box, surface, view.least);
+      if (!far.empty()) {
+        append(outline, far, kFarPart);
+      }
       const std::vector<Vec3> near = occlusionOutline(box, surface, view.least, std::sqrt(part.to));
       if (!near.empty()) {
-        append(near, nearTriangles);
+        append(near, near, kNearPart);
       }
     }
   }
-  std::vector<std::uint32_t>& all = decals.triangles;
-  for (const auto& [triangles, end] :
-       {std::pair(&farTriangles, &farEnd_), std::pair(&nearTriangles, &nearEnd_),
-        std::pair(&copyTriangles, &copiesEnd_)}) {
-    all.insert(all.end(), triangles->begin(), triangles->end());
+}
+
+void OcclusionMap::fill(const CellInputs* inputs, const PictureCells::Set& cells) {
+  std::vector<std::uint32_t> all;
+  for (const auto& [kind, end] :
+       {std::pair(kFarPart, &farEnd_), std::pair(kNearPart, &nearEnd_), std::pair(kCopyPart, &copiesEnd_)}) {
+    const std::vector<std::uint32_t>& of = triangles_.at(static_cast<std::size_t>(kind));
+    const std::vector<std::uint32_t> triangles =
+        inputs != nullptr ? decals_.pieces.trianglesIn(of, *inputs, cells) : of;
+    all.insert(all.end(), triangles.begin(), triangles.end());
     *end = all.size();
   }
   gl_.BindVertexArray(array_);
-  vertices_.fill(decals.vertices);
-  indices_.fill(decals.triangles);
+  vertices_.fill(decals_.vertices);
+  indices_.fill(all);
 }
 
 void OcclusionMap::begin(const Target& target) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <span>
 
@@ -28,9 +29,14 @@ class OcclusionMap {
   /// Size of the picture [px].
   OcclusionMap(const Gl& gl, const std::filesystem::path& shaders, int width, int height);
 
-  /// Marks the cells that boxes may reach; those that `hidden` hides are left out.
+  /// [px] of the picture: so far around it what is drawn into the map near a box changes how surfaces look.
+  static constexpr double kReach = 2;
+  /// Marks the cells that boxes may reach, and adds them to inputs, if there are any; those that `hidden`
+  /// hides are left out.
   void place(std::span<const DrawnBox> boxes, std::span<const Surface> surfaces, const OcclusionView& view,
-             const HiddenTiles& hidden, PictureCells& cells);
+             const HiddenTiles& hidden, PictureCells& cells, CellInputs* inputs);
+  /// Only what is in these cells of the inputs, if there are any.
+  void fill(const CellInputs* inputs, const PictureCells::Set& cells);
   /// To draw depths of surfaces that may hide others, then what is far from boxes.
   void beginFar() const;
   void drawFar() const;
@@ -62,7 +68,9 @@ class OcclusionMap {
   unsigned farProgram_;
   unsigned copyArray_;
   unsigned copyProgram_;
-  std::size_t farEnd_ = 0;  // of indices
+  Decals decals_;
+  std::array<std::vector<std::uint32_t>, 3> triangles_;  // of what is far, what is near, and copies
+  std::size_t farEnd_ = 0;                               // of indices
   std::size_t nearEnd_ = 0;
   std::size_t copiesEnd_ = 0;
 };

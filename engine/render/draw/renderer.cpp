@@ -11,7 +11,9 @@
 #include "core/system/clock.h"
 #include "core/system/resource.h"
 #include "render/draw/box_batch.h"
+#include "render/draw/changed_cells.h"
 #include "render/draw/frame_block.h"
+#include "render/draw/kept_lists.h"
 #include "render/draw/light_plane.h"
 #include "render/draw/neighbors.h"
 #include "render/draw/occlusion_map.h"
@@ -32,9 +34,6 @@ namespace careen {
 namespace {
 
 constexpr double kShrunk = 3;  // [px] boxes in the map of occlusion, whose pixels reach so far
-
-// [1] Width of the curve of shadow.frag that has the variance of a disc, of that disc: sqrt(5) / 2.
-constexpr double kCurveOfDisc = 1.118033988749895;
 
 // Floors and walls are behind by this part of what their depth changes in a pixel, and by so many steps of
 // its precision: a box that has sunk into one by less hides it, and what it has drawn is not taken for
@@ -61,35 +60,26 @@ std::vector<std::string> lightShaders(const Lighting& lighting) {
 // Walls that are no room's may hide each other.
 bool mayOverlap(const Stage& stage) { return stage.planes.size() + (stage.room ? 1 : 0) > 1; }
 
-// [1] The more boxes there are, the more they hide each other, and the less each has to be drawn far away.
-double leastOcclusion(std::size_t boxes) {
-  return std::clamp(0.004 * std::sqrt(static_cast<double>(boxes) / 100), 0.004, 0.022);
+// Several moments are drawn in layers; llvmpipe draws samples at the border of a scissor's rectangle twice;
+// and a mesh is not where its box is.
+bool mayBeCompared(const Stage& stage, std::span<const DrawnBox> drawn) {
+  return stage.parts.empty() && stage.picture.antialiasing != Antialiasing::kMultisampled &&
+         (drawn.empty() || drawn.front().moment == 0);
 }
 
-// [1] Likewise, of what keeps light from a box.
-double leastOnBoxes(std::size_t boxes) { return std::min(leastOcclusion(boxes), 0.008); }
+// What is drawn: a picture, or several of the same shot, none of which stays.
+enum class Sheet { kPicture, kMatte };
 
 // Where boxes cast their shadows.
 enum class Cast { kEverywhere, kOnBoxes };
-
-// [px] Thinner springs would be drawn with gaps.
-constexpr double kThinnest = 1.5;
-void widenSprings(std::vector<DrawnBox>& boxes, const Vec3& eye, double pixelAngle) {
-  for (DrawnBox& box : boxes) {
-    if (!box.marked) {
-      const double least = 0.5 * kThinnest * pixelAngle * (box.pose.position - eye).norm();
-      box.halfExtents.y() = std::max(box.halfExtents.y(), least);
-      box.halfExtents.z() = std::max(box.halfExtents.z(), least);
-    }
-  }
-}
 
 }  // namespace
 
 struct Renderer::Parts {
   Parts(const RunSetup& setup, const RenderOptions& options);
   void look(const Shot& shot);
-  void place(std::span<const Pose> poses, const Camera& from);
+  void place(std::span<const Pose> poses, const Camera& from, Sheet sheet);
+  void fill();
   void drawOcclusion();
   void gatherShadows() const;
   void takeByShadows() const;
@@ -99,7 +89,7 @@ struct Renderer::Parts {
   void drawStage(const PictureCells& shaded, const PictureCells& occluded);
   void drawBlack();
   void drawBackground(unsigned program) const;
-  void prepare(const Shot& shot);
+  void prepare(const Shot& shot, Sheet sheet);
   template <class Draw>
   Picture drawn(const Draw& draw);
   void drawOver(Picture& picture, const OverlayShapes& shapes);
@@ -133,6 +123,8 @@ struct Renderer::Parts {
   unsigned blackProgram = 0;  // made when first used
   unsigned blockBuffer = 0;
   FrameBlock block;
+  KeptLists lists;
+  ChangedCells changed;
   DrawFigures figures;
 };
 
@@ -176,25 +168,13 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
   gl.DepthFunc(GL_LEQUAL);
   gl.Enable(GL_CULL_FACE);
 
-  block.sky = floats(lighting.sky);
-  block.ground = floats(lighting.ground);
-  block.backgroundTop = floats(lighting.backgroundTop);
-  block.backgroundBottom = floats(lighting.backgroundBottom);
-  block.finish = floats(Vec3(materials.shoulder, canvas.wantsEdges() ? 1 : 0, materials.dither),
-                        leastOnBoxes(world.bodies.size()));
-  block.boxLook =
-      floats(Vec3(materials.boxRoughness, materials.marks ? 1 : 0, materials.ownColor), materials.edgeLine);
-  block.material = floats(materials.boxColor);
-  block.lines = floats(materials.lineColor, materials.ownJoints ? 1 : 0);
-  block.surfaceLook = floats(Vec3(materials.tileRoughness, materials.wallRoughness, materials.tileContrast),
-                             materials.joints);
-  block.occlusion = floats(Vec3(stage.picture.light.has(LightPart::kOcclusion) ? materials.corners : 0,
-                                leastOcclusion(world.bodies.size()), 1.0 / canvas.drawnWidth()),
-                           1.0 / canvas.drawnHeight());
-  if (lighting.light) {
-    block.towardsLight = floats(lighting.light->towards.normalized(), kCurveOfDisc * lighting.light->spread);
-    block.lightColor = floats(lighting.light->color);
-  }
+  block = blockOf({.lighting = lighting,
+                   .materials = materials,
+                   .parts = stage.picture.light,
+                   .boxes = world.bodies.size(),
+                   .width = canvas.drawnWidth(),
+                   .height = canvas.drawnHeight(),
+                   .wantsEdges = canvas.wantsEdges()});
   checkGl(gl, "preparing to draw");
 }
 
@@ -212,7 +192,7 @@ void Renderer::Parts::look(const Shot& shot) {
   surfaces.place(view.eye);
 }
 
-void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
+void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from, Sheet sheet) {
   std::vector<DrawnBox> drawn = drawnBoxes(world, stage, poses, 0.004 * extent.radius());
   widenSprings(drawn, view.eye, pixelAngle(from, stage.picture.height));
   sortFromEye(drawn, view.eye);
@@ -230,34 +210,35 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
   }
   shadedCells = PictureCells(view);
   occludedCells = PictureCells(view);
+  const bool bounces = occlusion && stage.picture.light.has(LightPart::kBounce);
+  block.up = floats(camera.up.normalized(), bounces ? returnLight(drawn, materials) : 0);
+  changed.begin(view, block, canvas.drawnWidth(), canvas.drawnHeight(),
+                sheet == Sheet::kPicture && mayBeCompared(stage, drawn));
+  CellInputs* const inputs = changed.inputs();
+  if (inputs != nullptr) {
+    surfaces.add(*inputs);
+  }
+  lists.begin(drawn, faces, view.eye, pixel);
   FaceShadows cast{.pairs = {}, .isDark = std::vector<bool>(faces.size())};
   const Vec3 towards = lighting.light ? Vec3(lighting.light->towards.normalized()) : Vec3(Vec3::UnitZ());
   if (shadows) {
     const ShadowLight light{.towards = towards, .spread = kCurveOfDisc * lighting.light->spread};
     LightPlane plane(light.towards, drawn);
-    cast = shadowsOnFaces(plane, drawn, faces, view.eye, light.spread, pixel);
-    shadowBatch->place(drawn, surfaces.surfaces(), light, view.eye, pixel, hidden, shadedCells);
+    cast = shadowsOnFaces(plane, drawn, faces, view.eye, light.spread, pixel, &lists);
+    shadowBatch->place(drawn, surfaces.surfaces(), light, view.eye, pixel, hidden, shadedCells, inputs);
   } else if (lighting.light) {
     std::transform(faces.begin(), faces.end(), cast.isDark.begin(),
                    [&](const DrawnFace& face) { return face.normal.dot(towards) <= 0; });
   }
   FaceNeighbors neighbors;
-  double returned = 0;  // the mean of all boxes
   if (occlusion) {
-    if (stage.picture.light.has(LightPart::kBounce)) {
-      for (DrawnBox& box : drawn) {
-        const Vec3 albedo = (1 - materials.ownColor) * materials.boxColor + materials.ownColor * box.color;
-        box.returned = materials.bounce * albedo;
-        returned += kReturnedToBoxes * box.returned.mean() / static_cast<double>(drawn.size());
-      }
-    }
     const double least = leastOcclusion(world.bodies.size());
     if (world.bodies.size() > 1) {
-      neighbors = neighborsOf(drawn, faces, leastOnBoxes(world.bodies.size()));
+      neighbors = neighborsOf(drawn, faces, leastOnBoxes(world.bodies.size()), &lists);
     }
     if (occlusionMap) {
       occlusionMap->place(drawn, surfaces.surfaces(), {.eye = view.eye, .pixelAngle = pixel, .least = least},
-                          hidden, occludedCells);
+                          hidden, occludedCells, inputs);
     }
   }
   if (stage.picture.antialiasing == Antialiasing::kMultisampled) {
@@ -269,8 +250,28 @@ void Renderer::Parts::place(std::span<const Pose> poses, const Camera& from) {
       occludedCells.markAll();
     }
   }
-  block.up = floats(camera.up.normalized(), returned);
-  boxes.place(drawn, faces, cast, neighbors, towards, view.eye);
+  boxes.place({.boxes = drawn,
+               .faces = faces,
+               .shadows = cast,
+               .neighbors = &neighbors,
+               .texels = {},
+               .towardsLight = towards,
+               .eye = view.eye,
+               .inputs = inputs,
+               .reach = occlusionMap ? OcclusionMap::kReach : 0,
+               .shrunk = occlusionMap ? kShrunk * pixel : 0});
+  lists.keep(std::move(cast), std::move(neighbors));
+  changed.find(shadedCells, occludedCells);
+}
+
+void Renderer::Parts::fill() {
+  boxes.fill(changed.inputs(), changed.cells());
+  if (shadows) {
+    shadowBatch->fill(changed.inputs(), changed.cells());
+  }
+  if (occlusionMap) {
+    occlusionMap->fill(changed.inputs(), changed.cells());
+  }
 }
 
 void Renderer::Parts::drawOcclusion() {
@@ -343,15 +344,23 @@ void Renderer::Parts::drawBoxes(Cast cast) {
 }
 
 void Renderer::Parts::drawBackground(unsigned program) const {
+  const int width = canvas.drawnWidth();
+  const int height = canvas.drawnHeight();
   gl.UseProgram(program);
   gl.BindVertexArray(backgroundArray);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.Enable(GL_SCISSOR_TEST);
+  for (const PixelRectangle& at :
+       pixelsOf(changed.cells() & ~surfaces.filled(view, width, height), width, height)) {
+    gl.Scissor(at.left, at.bottom, at.right - at.left, at.top - at.bottom);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  gl.Disable(GL_SCISSOR_TEST);
 }
 
 void Renderer::Parts::drawStage(const PictureCells& shaded, const PictureCells& occluded) {
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(kSunkSlopes, kSunkSteps);
-  surfaces.draw(shaded, occluded, canvas.drawnWidth(), canvas.drawnHeight());
+  surfaces.draw(shaded, occluded, changed.cells(), canvas.drawnWidth(), canvas.drawnHeight());
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   drawBackground(backgroundProgram);
   surfaces.drawGlass();
@@ -370,7 +379,7 @@ void Renderer::Parts::drawBlack() {
 }
 
 // All but the drawing of the picture itself.
-void Renderer::Parts::prepare(const Shot& shot) {
+void Renderer::Parts::prepare(const Shot& shot, Sheet sheet) {
   const std::size_t poses = shot.poses.size();
   const std::size_t bodies = world.bodies.size();
   if (bodies == 0 ? poses != 0 : poses == 0 || poses % bodies != 0) {
@@ -380,10 +389,14 @@ void Renderer::Parts::prepare(const Shot& shot) {
   const Clock::time_point begun = Clock::now();
   context->makeCurrent();
   look(shot);
-  place(shot.poses, shot.camera);
-  upload();
-  if (occlusionMap) {
-    drawOcclusion();
+  place(shot.poses, shot.camera, sheet);
+  changed.beginDrawing();
+  if (changed.cells().any()) {
+    fill();
+    upload();
+    if (occlusionMap) {
+      drawOcclusion();
+    }
   }
   figures.drawSeconds += secondsSince(begun);
 }
@@ -391,15 +404,17 @@ void Renderer::Parts::prepare(const Shot& shot) {
 template <class Draw>
 Picture Renderer::Parts::drawn(const Draw& draw) {
   const Clock::time_point begun = Clock::now();
-  canvas.begin();
-  if (occlusionMap) {
-    occlusionMap->bind();
+  if (changed.cells().any()) {
+    canvas.begin();
+    if (occlusionMap) {
+      occlusionMap->bind();
+    }
+    draw();
+    canvas.finish();
   }
-  draw();
-  canvas.finish();
   figures.drawSeconds += secondsSince(begun);
   const Clock::time_point drawnAt = Clock::now();
-  Picture picture = canvas.read();
+  Picture picture = canvas.read(pixelsOf(changed.cells(), canvas.drawnWidth(), canvas.drawnHeight()));
   figures.readSeconds += secondsSince(drawnAt);
   return picture;
 }
@@ -421,11 +436,12 @@ Picture Renderer::draw(std::span<const Pose> poses) {
 
 Picture Renderer::draw(const Shot& shot) {
   Parts& parts = *parts_;
-  parts.prepare(shot);
+  parts.prepare(shot, Sheet::kPicture);
   Picture picture = parts.drawn([&] {
     parts.drawBoxes(Cast::kEverywhere);
     parts.drawStage(parts.shadedCells, parts.occludedCells);
   });
+  parts.changed.endDrawing();
   refuseBlack(picture, parts.gl.description);
   ++parts.figures.frames;
   return picture;
@@ -433,7 +449,7 @@ Picture Renderer::draw(const Shot& shot) {
 
 MatteParts Renderer::drawMatte(const Shot& shot) {
   Parts& parts = *parts_;
-  parts.prepare(shot);
+  parts.prepare(shot, Sheet::kMatte);
   MatteParts matte;
   matte.boxes = parts.drawn([&] {
     parts.drawBoxes(Cast::kOnBoxes);

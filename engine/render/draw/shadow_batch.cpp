@@ -20,8 +20,8 @@ ShadowBatch::ShadowBatch(const Gl& gl, const std::filesystem::path& shaders)
 
 void ShadowBatch::place(std::span<const DrawnBox> boxes, std::span<const Surface> surfaces,
                         const ShadowLight& light, const Vec3& eye, double pixelAngle,
-                        const HiddenTiles& hidden, PictureCells& cells) {
-  Decals decals;
+                        const HiddenTiles& hidden, PictureCells& cells, CellInputs* inputs) {
+  decals_ = {};
   for (const Surface& surface : surfaces) {
     const double eyeHeight = surface.normal.dot(eye - surface.outline[0]);
     if (eyeHeight <= 0) {
@@ -37,16 +37,25 @@ void ShadowBatch::place(std::span<const DrawnBox> boxes, std::span<const Surface
         continue;
       }
       const Zonogon zonogon = zonogonOf(box, light.towards);
+      const std::size_t begun = decals_.vertices.size();
       for (const Vec3& corner : outline) {
-        appendShadow(decals.vertices, zonogon, corner, offsetOf(corner, eye), 1);
+        appendShadow(decals_.vertices, zonogon, corner, offsetOf(corner, eye), 1);
       }
       cells.mark(outline);
-      decals.addFan(outline.size());
+      decals_.addFan(outline.size());
+      if (inputs != nullptr) {
+        const std::span<const float> vertices = std::span(decals_.vertices).subspan(begun);
+        decals_.pieces.add(inputs->add(outline, 0, digest(vertices)), decals_.count);
+      }
     }
   }
+}
+
+void ShadowBatch::fill(const CellInputs* inputs, const PictureCells::Set& cells) {
   gl_.BindVertexArray(array_);
-  vertices_.fill(decals.vertices);
-  indices_.fill(decals.triangles);
+  vertices_.fill(decals_.vertices);
+  indices_.fill(inputs != nullptr ? decals_.pieces.trianglesIn(decals_.triangles, *inputs, cells)
+                                  : decals_.triangles);
 }
 
 void ShadowBatch::draw() const {

@@ -22,13 +22,17 @@ struct ShadowLight {
 class ShadowBatch {
  public:
   ShadowBatch(const Gl& gl, const std::filesystem::path& shaders);
-  /// `pixelAngle` [rad]; marks the cells that shadows may reach.
+  /// `pixelAngle` [rad]; marks the cells that shadows may reach, and adds these to inputs, if there are any.
   void place(std::span<const DrawnBox> boxes, std::span<const Surface> surfaces, const ShadowLight& light,
-             const Vec3& eye, double pixelAngle, const HiddenTiles& hidden, PictureCells& cells);
+             const Vec3& eye, double pixelAngle, const HiddenTiles& hidden, PictureCells& cells,
+             CellInputs* inputs);
+  /// Only what is in these cells of the inputs, if there are any.
+  void fill(const CellInputs* inputs, const PictureCells::Set& cells);
   void draw() const;
 
  private:
   const Gl& gl_;
+  Decals decals_;
   unsigned array_;
   VertexBuffer vertices_;
   IndexBuffer indices_;

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <utility>
+
+#include "render/draw/kept_lists.h"
 
 namespace careen {
 namespace {
@@ -198,19 +201,53 @@ bool appendNeeded(std::span<Caster> casters, std::size_t face, FaceSamples& samp
   return true;
 }
 
+// [m] Of so many boxes, to the light.
+double nearestTo(const LightPlane& light, std::size_t boxes) {
+  double nearest = boxes == 0 ? 0 : light.bounds(0).max.z();
+  for (std::size_t i = 1; i < boxes; ++i) {
+    nearest = std::max(nearest, light.bounds(i).max.z());
+  }
+  return nearest;
+}
+
+// Shadows on faces that none of the boxes that have changed lies over, neither as it was nor as it is.
+struct KeptShadows {
+  KeptShadows(const KeptLists& lists, const Vec3& towards)
+      : kept(lists), changed(towards, lists.changed()), nearest(nearestTo(changed, lists.changed().size())) {}
+
+  // Appends the face's pairs; whether it is dark.
+  bool append(std::size_t face, std::vector<ShadowPair>& pairs) const {
+    const FaceShadows& before = kept.shadowsBefore();
+    const std::size_t was = *kept.before(face);
+    auto pair = std::lower_bound(before.pairs.begin(), before.pairs.end(), was,
+                                 [](const ShadowPair& each, std::size_t of) { return each.face < of; });
+    for (; pair != before.pairs.end() && pair->face == was; ++pair) {
+      pairs.push_back({.face = face, .caster = kept.boxNow(pair->caster), .weight = pair->weight});
+    }
+    return before.isDark[was];
+  }
+
+  const KeptLists& kept;
+  LightPlane changed;
+  double nearest;
+};
+
 }  // namespace
 
 FaceShadows shadowsOnFaces(LightPlane& light, std::span<const DrawnBox> boxes,
                            std::span<const DrawnFace> faces, const Vec3& eye, double spread,
-                           double pixelAngle) {
+                           double pixelAngle, const KeptLists* kept) {
   FaceShadows shadows;
   shadows.isDark.resize(faces.size());
   std::vector<Zonogon> zonogons;
   zonogons.reserve(boxes.size());
-  double nearest = 0;  // of all boxes, to the light
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    zonogons.push_back(zonogonOf(boxes[i], light.towards()));
-    nearest = i == 0 ? light.bounds(0).max.z() : std::max(nearest, light.bounds(i).max.z());
+  for (const DrawnBox& box : boxes) {
+    zonogons.push_back(zonogonOf(box, light.towards()));
+  }
+  const double nearest = nearestTo(light, boxes.size());
+  std::optional<KeptShadows> keeping;
+  if (kept != nullptr && !kept->isEmpty()) {
+    keeping.emplace(*kept, light.towards());
   }
   std::vector<std::size_t> found;
   std::vector<Caster> casters;
@@ -220,9 +257,7 @@ FaceShadows shadowsOnFaces(LightPlane& light, std::span<const DrawnBox> boxes,
       shadows.isDark[index] = true;
       continue;
     }
-    const std::array<Vec3, 4> corners = {
-        face.centre - face.across - face.along, face.centre + face.across - face.along,
-        face.centre + face.across + face.along, face.centre - face.across + face.along};
+    const std::array<Vec3, 4> corners = outlineOf(face);
     Vec3 least = light.seen(corners[0]);
     Vec3 most = least;
     for (const Vec3& corner : corners) {
@@ -230,8 +265,18 @@ FaceShadows shadowsOnFaces(LightPlane& light, std::span<const DrawnBox> boxes,
       most = most.cwiseMax(light.seen(corner));
     }
     const double pixel = kSoftPixels * pixelAngle * (face.centre - eye).norm();
-    const double soft = spread * std::max(0.0, nearest - least.z()) + pixel;
-    light.gather(least - Vec3(soft, soft, 0), most + Vec3(soft, soft, 0), found);
+    const auto gather = [&](LightPlane& from, double highest) {
+      const double soft = spread * std::max(0.0, highest - least.z()) + pixel;
+      from.gather(least - Vec3(soft, soft, 0), most + Vec3(soft, soft, 0), found);
+    };
+    if (keeping && kept->before(index)) {
+      gather(keeping->changed, keeping->nearest);
+      if (found.empty()) {
+        shadows.isDark[index] = keeping->append(index, shadows.pairs);
+        continue;
+      }
+    }
+    gather(light, nearest);
     FaceSamples samples(face, pixel / kSoftPixels);
     std::size_t count = 0;
     for (const std::size_t box : found) {

@@ -22,11 +22,14 @@ struct FaceShadows {
   std::vector<bool> isDark;       ///< of each face: no point of it has direct light; it is in no pair
 };
 
+class KeptLists;
+
 /// All boxes whose shadow, penumbra included, may reach these faces, but for those whose share the others
 /// keep off anyway. `spread` [1] is how wide penumbras are on each side of an edge, of the distance;
-/// `pixelAngle` [rad] widens what is narrower than a pixel.
+/// `pixelAngle` [rad] widens what is narrower than a pixel. With the same result, what is kept is not looked
+/// for again.
 FaceShadows shadowsOnFaces(LightPlane& light, std::span<const DrawnBox> boxes,
                            std::span<const DrawnFace> faces, const Vec3& eye, double spread,
-                           double pixelAngle);
+                           double pixelAngle, const KeptLists* kept = nullptr);
 
 }  // namespace careen

@@ -12,6 +12,12 @@
 namespace careen {
 namespace {
 
+constexpr std::size_t kRecord = 23;  // numbers of a vertex, see surface.vert
+
+// What surfaces need in a part of the picture, added.
+constexpr int kShaded = 1;
+constexpr int kOccluded = 2;
+
 using Ends = std::array<double, 4>;  // [m] low and high end of the first coordinate, and of the second
 
 Ends endsOf(const Surface& surface) {
@@ -93,62 +99,94 @@ void SurfaceBatch::replace(std::vector<Surface> surfaces) {
   surfaces_ = std::move(surfaces);
   std::erase_if(surfaces_, [](const Surface& surface) { return surface.outline.empty(); });
   eye_.reset();
+  groups_.clear();
+  int first = 0;
+  for (const Surface& surface : surfaces_) {
+    const int count = 3 * static_cast<int>(surface.outline.size());
+    const bool fades = surface.fade > 0;
+    if (groups_.empty() || groups_.back().covering != surface.covering || groups_.back().fades != fades) {
+      groups_.push_back({.covering = surface.covering, .fades = fades, .first = first});
+    }
+    groups_.back().count += count;
+    first += count;
+  }
 }
 
 void SurfaceBatch::place(const Vec3& eye) {
   if (eye_ != eye) {
-    vertices_.fill(triangles(surfaces_, tileSize_, eye));
+    records_ = triangles(surfaces_, tileSize_, eye);
+    vertices_.fill(records_);
     eye_ = eye;
   }
 }
 
-unsigned SurfaceBatch::programOf(bool shadows, bool occlusion) {
-  unsigned& program = programs_.at((shadows ? 1 : 0) + (occlusion ? 2 : 0));
+unsigned SurfaceBatch::programOf(const Group& group, int needs) {
+  const auto covering = static_cast<std::size_t>(group.covering);
+  unsigned& program = programs_.at(8 * covering + (group.fades ? 4 : 0) + static_cast<std::size_t>(needs));
   if (program == 0) {
-    program = linkProgram(
-        gl_, shaders_,
-        with({"surface.vert", "surface.frag", occlusion ? "open_map.frag" : "open_everywhere.frag",
-              shadows ? "write_shaded.frag" : "write_lit.frag"},
-             light_));
+    constexpr std::array<const char*, 3> kPatterns = {"surface_plain.frag", "surface_skirted.frag",
+                                                      "surface_tiles.frag"};
+    program = linkProgram(gl_, shaders_,
+                          with({"surface.vert", "surface.frag", kPatterns.at(covering),
+                                group.fades ? "surface_fading.frag" : "surface_endless.frag",
+                                (needs & kOccluded) != 0 ? "open_map.frag" : "open_everywhere.frag",
+                                (needs & kShaded) != 0 ? "write_shaded.frag" : "write_lit.frag"},
+                               light_));
   }
   return program;
 }
 
-void SurfaceBatch::draw(const PictureCells& shadows, const PictureCells& occlusion, int width, int height) {
-  using Row = std::array<int, PictureCells::kColumns>;
-  const auto rowOf = [&](int row) {
-    Row needs{};
-    for (int column = 0; column < PictureCells::kColumns; ++column) {
-      needs.at(static_cast<std::size_t>(column)) =
-          (shadows.isMarked(column, row) ? 1 : 0) + (occlusion.isMarked(column, row) ? 2 : 0);
+PictureCells::Set SurfaceBatch::filled(const View& view, int width, int height) const {
+  PictureCells::Set cells;
+  for (const Surface& surface : surfaces_) {
+    if (surface.normal.dot(*eye_ - surface.outline[0]) > 0) {
+      cells |= PictureCells::filledBy(view, surface.outline, width, height);
     }
-    return needs;
-  };
+  }
+  return cells;
+}
+
+void SurfaceBatch::add(CellInputs& inputs) const {
+  auto vertices = std::span(records_);
+  for (const Surface& surface : surfaces_) {
+    const std::size_t own = 3 * surface.outline.size() * kRecord;
+    inputs.add(surface.outline, 0, digest(vertices.first(own)));
+    vertices = vertices.subspan(own);
+  }
+}
+
+void SurfaceBatch::draw(const PictureCells& shadows, const PictureCells& occlusion,
+                        const PictureCells::Set& cells, int width, int height) {
+  constexpr int kNotDrawn = -1;
+  std::array<std::vector<PixelRectangle>, 4> parts;  // by what they need
+  forRectangles(
+      [&](int column, int row) {
+        return !cells[PictureCells::indexOf(column, row)]
+                   ? kNotDrawn
+                   : (shadows.isMarked(column, row) ? kShaded : 0) +
+                         (occlusion.isMarked(column, row) ? kOccluded : 0);
+      },
+      [&](int needs, int column, int endColumn, int row, int endRow) {
+        if (needs != kNotDrawn) {
+          parts.at(static_cast<std::size_t>(needs))
+              .push_back(PictureCells::pixelsOf(column, endColumn, row, endRow, width, height));
+        }
+      });
   gl_.BindVertexArray(array_);
   gl_.Enable(GL_SCISSOR_TEST);
-  for (int row = 0; row < PictureCells::kRows;) {
-    const Row needs = rowOf(row);
-    int end = row + 1;
-    while (end < PictureCells::kRows && rowOf(end) == needs) {
-      ++end;
-    }
-    const int bottom = height * row / PictureCells::kRows;
-    const int top = height * end / PictureCells::kRows;
-    for (std::size_t column = 0; column < needs.size();) {
-      std::size_t last = column;
-      while (last < needs.size() && needs.at(last) == needs.at(column)) {
-        ++last;
+  for (const Group& group : groups_) {
+    for (int needs = 0; needs < 4; ++needs) {
+      const std::vector<PixelRectangle>& own = parts.at(static_cast<std::size_t>(needs));
+      if (own.empty()) {
+        continue;
       }
-      const int left = width * static_cast<int>(column) / PictureCells::kColumns;
-      const int right = width * static_cast<int>(last) / PictureCells::kColumns;
-      const bool isShaded = needs.at(column) % 2 != 0;
-      (isShaded ? gl_.Enable : gl_.Disable)(GL_BLEND);
-      gl_.UseProgram(programOf(isShaded, needs.at(column) >= 2));
-      gl_.Scissor(left, bottom, right - left, top - bottom);
-      gl_.DrawArrays(GL_TRIANGLES, 0, vertices_.count());
-      column = last;
+      ((needs & kShaded) != 0 ? gl_.Enable : gl_.Disable)(GL_BLEND);
+      gl_.UseProgram(programOf(group, needs));
+      for (const PixelRectangle& at : own) {
+        gl_.Scissor(at.left, at.bottom, at.right - at.left, at.top - at.bottom);
+        gl_.DrawArrays(GL_TRIANGLES, group.first, group.count);
+      }
     }
-    row = end;
   }
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.Disable(GL_BLEND);
@@ -156,9 +194,10 @@ void SurfaceBatch::draw(const PictureCells& shadows, const PictureCells& occlusi
 
 void SurfaceBatch::drawBlack() {
   if (blackProgram_ == 0) {
-    blackProgram_ = linkProgram(
-        gl_, shaders_,
-        with({"surface.vert", "surface.frag", "open_everywhere.frag", "write_black.frag"}, light_));
+    blackProgram_ = linkProgram(gl_, shaders_,
+                                with({"surface.vert", "surface.frag", "surface_plain.frag",
+                                      "surface_endless.frag", "open_everywhere.frag", "write_black.frag"},
+                                     light_));
   }
   gl_.UseProgram(blackProgram_);
   gl_.BindVertexArray(array_);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/draw/picture_cells.h"
+#include "render/draw/cell_inputs.h"
 #include "render/gl/vertex_array.h"
 #include "view/surfaces.h"
 
@@ -23,9 +23,13 @@ class SurfaceBatch {
   /// Others than before: some have moved.
   void replace(std::vector<Surface> surfaces);
   void place(const Vec3& eye);
-  /// Draws to a canvas of this size [px]: where shadows may reach by blending full light and full shadow,
-  /// where boxes occlude with the map of occlusion.
-  void draw(const PictureCells& shadows, const PictureCells& occlusion, int width, int height);
+  void add(CellInputs& inputs) const;
+  /// Cells that surfaces fill, so that nothing behind them is seen there.
+  PictureCells::Set filled(const View& view, int width, int height) const;
+  /// Draws these cells of a canvas of this size [px]: where shadows may reach by blending full light and full
+  /// shadow, where boxes occlude with the map of occlusion.
+  void draw(const PictureCells& shadows, const PictureCells& occlusion, const PictureCells::Set& cells,
+            int width, int height);
   /// Black, but for what lies before them.
   void drawBlack();
   /// Black, a little farther away, for their depth.
@@ -34,18 +38,27 @@ class SurfaceBatch {
   void drawGlass();
 
  private:
+  // Consecutive surfaces that are drawn by the same programs.
+  struct Group {
+    Covering covering = Covering::kPlain;
+    bool fades = false;
+    int first = 0;  // vertex
+    int count = 0;
+  };
+  unsigned programOf(const Group& group, int needs);
+
   const Gl& gl_;
   unsigned array_;
   VertexBuffer vertices_;
-  unsigned programOf(bool shadows, bool occlusion);
-
   std::filesystem::path shaders_;
   std::vector<std::string> light_;
-  std::array<unsigned, 4> programs_{};  // made when first used; 1: shadows, 2: occlusion
+  std::array<unsigned, 24> programs_{};  // made when first used
   unsigned depthProgram_;
   unsigned blackProgram_ = 0;  // made when first used
   unsigned glassProgram_ = 0;  // likewise
   std::vector<Surface> surfaces_;
+  std::vector<Group> groups_;
+  std::vector<float> records_;
   double tileSize_;
   std::optional<Vec3> eye_;
 };

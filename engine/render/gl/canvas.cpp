@@ -89,6 +89,48 @@ bool average(const std::uint8_t* from, std::size_t times, std::size_t rowPixels,
                      std::string(drawingPackages()));
 }
 
+Picture blackPicture(int width, int height) {
+  Picture picture{.width = width, .height = height, .rgb = {}};
+  picture.rgb.resize(picture.rowBytes() * static_cast<std::size_t>(height));
+  return picture;
+}
+
+// These pixels of a picture; see pictureFromDrawing.
+void convert(std::span<const std::uint8_t> rgba, int scale, const PixelRectangle& pixels, Picture& picture,
+             const std::string& renderer) {
+  const auto columns = static_cast<std::size_t>(picture.width);
+  const auto times = static_cast<std::size_t>(scale);
+  const auto left = static_cast<std::size_t>(pixels.left);
+  const auto right = static_cast<std::size_t>(pixels.right);
+  bool blank = false;
+  for (auto row = static_cast<std::size_t>(pixels.bottom); row < static_cast<std::size_t>(pixels.top);
+       ++row) {
+    const std::uint8_t* from = &rgba[times * (row * times * columns + left) * 4];
+    std::uint8_t* to =
+        &picture.rgb[(static_cast<std::size_t>(picture.height) - 1 - row) * picture.rowBytes() + 3 * left];
+    if (times > 1) {
+      for (std::size_t column = left; column < right; ++column, from += 4 * times, to += 3) {
+        blank = !average(from, times, times * columns, to) || blank;
+      }
+      continue;
+    }
+    // Simple loops, each of which takes several pixels at once.
+    std::uint8_t least = 255;
+    for (std::size_t i = 0; i < right - left; ++i) {
+      least = std::min(least, from[4 * i + 3]);
+    }
+    blank = blank || least == 0;
+    for (std::size_t i = 0; i < right - left; ++i) {
+      to[3 * i] = from[4 * i];
+      to[3 * i + 1] = from[4 * i + 1];
+      to[3 * i + 2] = from[4 * i + 2];
+    }
+  }
+  if (blank) {
+    failToDraw("with pixels left blank", renderer);
+  }
+}
+
 }  // namespace
 
 Canvas::Canvas(const Gl& gl, int width, int height, Antialiasing antialiasing)
@@ -102,7 +144,8 @@ Canvas::Canvas(const Gl& gl, int width, int height, Antialiasing antialiasing)
   drawn_ = makeFramebuffer(gl, samples, true, scale_ * width, scale_ * height);
   resolved_ = samples > 0 ? makeFramebuffer(gl, 0, false, width, height) : drawn_;
   rgba_.resize(static_cast<std::size_t>(scale_ * width) * static_cast<std::size_t>(scale_ * height) * 4);
-  scratch_.resize(wantsEdges() ? rgba_.size() : 0);
+  blended_.resize(wantsEdges() ? rgba_.size() : 0);
+  picture_ = blackPicture(width, height);
 }
 
 bool Canvas::wantsEdges() const {
@@ -126,40 +169,45 @@ void Canvas::finish() const {
   gl_.Finish();
 }
 
-Picture Canvas::read() {
+const Picture& Canvas::read(std::span<const PixelRectangle> drawn) {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_);
+  const int width = scale_ * width_;
+  const int height = scale_ * height_;
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl_.ReadPixels(0, 0, scale_ * width_, scale_ * height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
-  checkGl(gl_, "drawing a frame");
-  if (wantsEdges()) {
-    blendEdges(rgba_, scale_ * width_, scale_ * height_, scratch_);
+  gl_.PixelStorei(GL_PACK_ROW_LENGTH, width);
+  for (const PixelRectangle& part : drawn) {
+    const auto before = static_cast<std::size_t>(part.bottom) * static_cast<std::size_t>(width) +
+                        static_cast<std::size_t>(part.left);
+    gl_.ReadPixels(part.left, part.bottom, part.right - part.left, part.top - part.bottom, GL_RGBA,
+                   GL_UNSIGNED_BYTE, &rgba_[4 * before]);
   }
-  return pictureFromDrawing(rgba_, width_, height_, scale_, gl_.description);
+  gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
+  checkGl(gl_, "drawing a frame");
+  for (const PixelRectangle& part : drawn) {
+    // Pixels of edges blend into those beside them.
+    const PixelRectangle near = !wantsEdges() ? part
+                                              : PixelRectangle{.left = std::max(part.left - 1, 0),
+                                                               .bottom = std::max(part.bottom - 1, 0),
+                                                               .right = std::min(part.right + 1, width),
+                                                               .top = std::min(part.top + 1, height)};
+    if (wantsEdges()) {
+      blendEdges(rgba_, width, height, near, blended_);
+    }
+    const auto outward = [&](int end) { return (end + scale_ - 1) / scale_; };
+    convert(wantsEdges() ? blended_ : rgba_, scale_,
+            {.left = near.left / scale_,
+             .bottom = near.bottom / scale_,
+             .right = outward(near.right),
+             .top = outward(near.top)},
+            picture_, gl_.description);
+  }
+  return picture_;
 }
 
 Picture pictureFromDrawing(std::span<const std::uint8_t> rgba, int width, int height, int scale,
                            const std::string& renderer) {
-  Picture picture{.width = width, .height = height, .rgb = {}};
-  const auto columns = static_cast<std::size_t>(width);
-  const auto rows = static_cast<std::size_t>(height);
-  const auto times = static_cast<std::size_t>(scale);
-  picture.rgb.resize(picture.rowBytes() * rows);
-  bool blank = false;
-  for (std::size_t row = 0; row < rows; ++row) {
-    const std::uint8_t* from = &rgba[times * (rows - 1 - row) * times * columns * 4];
-    std::uint8_t* to = &picture.rgb[row * picture.rowBytes()];
-    for (std::size_t column = 0; column < columns; ++column, from += 4 * times, to += 3) {
-      if (times > 1) {
-        blank = !average(from, times, times * columns, to) || blank;
-      } else {
-        std::copy_n(from, 3, to);
-        blank = blank || from[3] == 0;
-      }
-    }
-  }
-  if (blank) {
-    failToDraw("with pixels left blank", renderer);
-  }
+  Picture picture = blackPicture(width, height);
+  convert(rgba, scale, {.left = 0, .bottom = 0, .right = width, .top = height}, picture, renderer);
   return picture;
 }
 

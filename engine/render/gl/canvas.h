@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "image/picture.h"
+#include "render/gl/edge_blend.h"
 #include "stage/picture_settings.h"
 
 namespace careen {
@@ -22,8 +23,9 @@ class Canvas {
   void begin() const;
   /// Waits until drawing is complete.
   void finish() const;
-  /// Antialiases and reads back the frame. MachineError if a pixel is blank.
-  Picture read();
+  /// Antialiases and reads back these parts of the frame; the others are as they were read before.
+  /// MachineError if a pixel is blank.
+  const Picture& read(std::span<const PixelRectangle> drawn);
 
   /// [px] of what is drawn, before it is averaged to the picture.
   int drawnWidth() const { return scale_ * width_; }
@@ -41,7 +43,8 @@ class Canvas {
   unsigned drawn_ = 0;
   unsigned resolved_ = 0;  // same as drawn_ unless multisampled
   std::vector<std::uint8_t> rgba_;
-  std::vector<std::uint8_t> scratch_;
+  std::vector<std::uint8_t> blended_;
+  Picture picture_;
 };
 
 /// Converts RGBA rows, bottom row first, to a picture, averaging each `scale` x `scale` pixels in linear

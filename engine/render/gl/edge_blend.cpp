@@ -39,8 +39,9 @@ void blend(std::uint8_t* pixel, const std::uint8_t* other, int part) {
 
 class EdgeBlend {
  public:
-  EdgeBlend(std::span<std::uint8_t> rgba, int width, int height, std::span<const std::uint8_t> before)
-      : rgba_(rgba), before_(before), width_(width), height_(height) {}
+  EdgeBlend(std::span<std::uint8_t> rgba, int width, int height, const PixelRectangle& within,
+            std::span<const std::uint8_t> before)
+      : rgba_(rgba), before_(before), width_(width), height_(height), within_(within) {}
 
   void at(int x, int y) {
     const std::size_t here = placeOf(x, y);
@@ -66,10 +67,12 @@ class EdgeBlend {
       }
       edge = crossing->at + kWhole - back->at;  // the same edge, up to rounding
     }
-    if (edge < kWhole) {
-      blend(&rgba_[here], &before_[there], kWhole - edge);
-    } else {
-      blend(&rgba_[there], &before_[here], edge - kWhole);
+    if (edge < kWhole ? isWithin(x, y) : isWithin(otherX, otherY)) {
+      if (edge < kWhole) {
+        blend(&rgba_[here], &before_[there], kWhole - edge);
+      } else {
+        blend(&rgba_[there], &before_[here], edge - kWhole);
+      }
     }
   }
 
@@ -77,6 +80,9 @@ class EdgeBlend {
   static constexpr std::array<int, 4> kRight{1, -1, 0, 0};
   static constexpr std::array<int, 4> kUp{0, 0, 1, -1};
 
+  bool isWithin(int x, int y) const {
+    return x >= within_.left && x < within_.right && y >= within_.bottom && y < within_.top;
+  }
   std::size_t placeOf(int x, int y) const {
     return kBytes *
            (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
@@ -86,17 +92,27 @@ class EdgeBlend {
   std::span<const std::uint8_t> before_;
   int width_;
   int height_;
+  PixelRectangle within_;
 };
 
 }  // namespace
 
-void blendEdges(std::span<std::uint8_t> rgba, int width, int height, std::span<std::uint8_t> scratch) {
-  std::copy(rgba.begin(), rgba.end(), scratch.begin());
-  EdgeBlend blend(rgba, width, height, scratch);
-  for (int y = 0; y < height; ++y) {
-    const std::uint8_t* row =
-        &scratch[kBytes * static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];
-    for (int x = 0; x < width; ++x) {
+void blendEdges(std::span<const std::uint8_t> drawn, int width, int height, const PixelRectangle& within,
+                std::span<std::uint8_t> blended) {
+  const auto placeOf = [&](int x, int y) {
+    return kBytes *
+           (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  };
+  for (int y = within.bottom; y < within.top; ++y) {
+    const std::uint8_t* const row = &drawn[placeOf(within.left, y)];
+    std::copy_n(row, placeOf(within.right - within.left, 0), &blended[placeOf(within.left, y)]);
+  }
+  EdgeBlend blend(blended, width, height, within, drawn);
+  const int right = std::min(within.right + 1, width);  // pixels beside it blend into it, too
+  const int top = std::min(within.top + 1, height);
+  for (int y = std::max(within.bottom - 1, 0); y < top; ++y) {
+    const std::uint8_t* const row = &drawn[placeOf(0, y)];
+    for (int x = std::max(within.left - 1, 0); x < right; ++x) {
       if (row[kBytes * static_cast<std::size_t>(x) + 3] != kNoEdge) {
         blend.at(x, y);
       }

@@ -15,8 +15,17 @@ namespace careen {
 inline constexpr int kEdgeSteps = 63;
 inline constexpr std::uint8_t kNoEdge = 255;
 
-/// `rgba`: sRGB with alpha as above, bottom row first; blended in linear light, in place. `scratch` has the
-/// same size.
-void blendEdges(std::span<std::uint8_t> rgba, int width, int height, std::span<std::uint8_t> scratch);
+/// A part of a picture whose bottom row comes first [px].
+struct PixelRectangle {
+  int left = 0;
+  int bottom = 0;
+  int right = 0;  ///< the column after the last
+  int top = 0;    ///< the row after the last
+};
+
+/// `drawn`: sRGB with alpha as above, bottom row first. What is blended of it in linear light goes to the
+/// same places of `blended`, and nothing else there changes.
+void blendEdges(std::span<const std::uint8_t> drawn, int width, int height, const PixelRectangle& within,
+                std::span<std::uint8_t> blended);
 
 }  // namespace careen

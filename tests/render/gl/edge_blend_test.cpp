@@ -24,10 +24,10 @@ Bytes gray(std::initializer_list<std::pair<int, std::uint8_t>> pixels) {
   return rgba;
 }
 
-Bytes blended(Bytes rgba, int width, int height) {
-  Bytes scratch(rgba.size());
-  blendEdges(rgba, width, height, scratch);
-  return rgba;
+Bytes blended(const Bytes& rgba, int width, int height) {
+  Bytes result(rgba.size());
+  blendEdges(rgba, width, height, {.left = 0, .bottom = 0, .right = width, .top = height}, result);
+  return result;
 }
 
 double light(const Bytes& rgba, std::size_t pixel) {
