@@ -175,7 +175,7 @@ void showBeside(Trajectory& run, const Trajectory& first, const std::string& nam
     body = static_cast<std::size_t>(found - run.world.bodies.begin());
   };
   Stage& stage = run.stage;
-  static_cast<Showing&>(stage) = first.stage;
+  static_cast<Showing&>(stage) = static_cast<const Showing&>(first.stage);
   stage.picture.overlays.remove(Overlay::kTime);
   stage.scenery.titles.clear();
   sameBox(stage.cameraMove.followed);

@@ -133,7 +133,7 @@ void FilmPlot::addAxes(OverlayShapes& shapes) const {
 }
 
 void FilmPlot::addCurve(OverlayShapes& shapes, const Curve& curve, double filmTime) const {
-  const double last = static_cast<double>(curve.values.size() - 1);
+  const auto last = static_cast<double>(curve.values.size() - 1);
   const double now = std::min(filmTime, curve.end);
   const double end = std::clamp(duration_ > 0 ? now / duration_ : 0, 0.0, 1.0) * last;
   const auto whole = static_cast<std::size_t>(end);
