@@ -30,7 +30,7 @@ const libraries = ["build/three.min.js", "examples/js/controls/OrbitControls.js"
   .map(name => read(path.join(three, name))).join("\n;\n");
 const version = /project\(careen VERSION ([0-9.]+)/.exec(read(path.join(root, "CMakeLists.txt")))[1];
 const parts = {
-  STYLE: own("style.css"),
+  STYLE: read(path.join(root, "assets/page/base.css")) + own("style.css"),  // the colours of a run's page
   PROGRAM: `careen ${version}`,
   THREE: /REVISION="?(\d+)/.exec(libraries)?.[1] ?? "",
   SCENES: JSON.stringify(scenes).replace(/</g, "\\u003c"),

@@ -32,7 +32,7 @@ Layer changeOf(const std::uint8_t* before, const std::uint8_t* after) {
     if (std::abs(to - from) <= kNoise) {
       continue;
     }
-    const double needed = to < from ? (from - to) / from : to > from ? (to - from) / (kFull - from) : 0;
+    const double needed = (to - from) / (to < from ? -from : kFull - from);
     change.alpha = std::max(change.alpha, needed);
   }
   change.alpha = std::ceil(kFull * change.alpha) / kFull;

@@ -107,7 +107,7 @@ std::string runPage(const Trajectory& run, const Audit& audit, const PageFilm& f
                      {"impacts", impactsJson(run, impacts)},
                      {"audit", auditJson(run, audit)}};
   std::string page(embeddedRunPage("run.html"));
-  replace(page, "/*STYLE*/", embeddedRunPage("run.css"));
+  replace(page, "/*STYLE*/", std::string(embeddedRunPage("base.css")).append(embeddedRunPage("run.css")));
   replace(page, "/*SCRIPT*/", embeddedRunPage("run.js"));
   replace(page, "{{DATA}}", scriptText(data));
   replace(page, "{{FILM}}", "data:" + film.type + ";base64," + base64(film.bytes));

@@ -5,7 +5,7 @@
 #include "physics/motion/recorder.h"
 #include "physics/world/joint.h"
 #include "trajectory/archive.h"
-#include "trajectory/trajectory_format.h"
+#include "trajectory/motion_format.h"
 
 namespace careen {
 

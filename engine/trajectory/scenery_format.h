@@ -2,7 +2,7 @@
 
 #include "stage/stage.h"
 #include "trajectory/archive.h"
-#include "trajectory/trajectory_format.h"
+#include "trajectory/stage_format.h"
 
 namespace careen {
 

@@ -63,7 +63,7 @@ class Renderer {
 
   /// MachineError if the frame is black or has blank pixels.
   Picture draw(const Shot& shot);
-  /// What of the shot goes over other pictures: takes up to 3.2 times as long.
+  /// What of the shot goes over other pictures: draws four pictures.
   MatteParts drawMatte(const Shot& shot);
   /// Draws with the camera that the light is placed relative to.
   Picture draw(std::span<const Pose> poses);
