@@ -101,6 +101,7 @@ const std::map<std::string, std::string> kWithoutTest = {
      "data, and the larger of two; filled in tests of solver/residual_sum"},
     {"physics/world/plan", "data and look-ups, tested through scene/plan"},
     {"physics/world/run_settings", "data only"},
+    {"render/draw/background", "a triangle; tested through renderer"},
     {"render/draw/box_batch", "sends face_records; tested through renderer"},
     {"render/draw/face_records",
      "lists what drawn_box, neighbors and shadow_pairs find; tested through renderer"},

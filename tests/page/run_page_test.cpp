@@ -47,7 +47,11 @@ TEST(RunPage, isMadeOfTheFilesThatAreBuiltIn) {
     EXPECT_EQ(embeddedRunPage(entry.path().filename().string()), textOf(entry.path())) << entry.path();
     ++files;
   }
-  EXPECT_EQ(files, 3);
+  EXPECT_EQ(files, 4);
+  const std::string page = pageOf(bouncing("page"));
+  for (const char* const part : {"base.css", "run.css", "run.js"}) {
+    EXPECT_NE(page.find(embeddedRunPage(part)), std::string::npos) << part;
+  }
   EXPECT_EQ(embeddedRunPage("none.js"), "");
 }
 

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/system/clock.h"
 #include "core/system/resource.h"
+#include "render/draw/background.h"
 #include "render/draw/box_batch.h"
 #include "render/draw/changed_cells.h"
 #include "render/draw/frame_block.h"
@@ -34,12 +35,6 @@ namespace careen {
 namespace {
 
 constexpr double kShrunk = 3;  // [px] boxes in the map of occlusion, whose pixels reach so far
-
-// Floors and walls are behind by this part of what their depth changes in a pixel, and by so many steps of
-// its precision: a box that has sunk into one by less hides it, and what it has drawn is not taken for
-// shadow.
-constexpr float kSunkSlopes = 0.5F;
-constexpr float kSunkSteps = 8;
 
 constexpr double kSnapped = 0.02;       // [px] GL rounds corners by less
 constexpr std::size_t kManyBoxes = 20;  // which hide so many faces that finding them pays
@@ -83,16 +78,14 @@ struct Renderer::Parts {
   void drawOcclusion();
   void gatherShadows() const;
   void takeByShadows() const;
-  void castOnSurfaces() const;
   void drawShaded(std::size_t layer, Cast cast);
   void drawBoxes(Cast cast);
   void drawStage(const PictureCells& shaded, const PictureCells& occluded);
   void drawBlack();
-  void drawBackground(unsigned program) const;
+  std::vector<PixelRectangle> bareParts() const;
   void prepare(const Shot& shot, Sheet sheet);
   template <class Draw>
   Picture drawn(const Draw& draw);
-  void drawOver(Picture& picture, const OverlayShapes& shapes);
   void upload() const;
 
   World world;
@@ -118,9 +111,7 @@ struct Renderer::Parts {
   SurfaceBatch surfaces;
   std::optional<ShadowBatch> shadowBatch;
   std::optional<OcclusionMap> occlusionMap;
-  unsigned backgroundArray;
-  unsigned backgroundProgram;
-  unsigned blackProgram = 0;  // made when first used
+  Background background;
   unsigned blockBuffer = 0;
   FrameBlock block;
   KeptLists lists;
@@ -153,9 +144,7 @@ Renderer::Parts::Parts(const RunSetup& setup, const RenderOptions& options)
              .neighbors = occlusion && world.bodies.size() > 1}),
       surfaces(gl, shaders, lightShaders(lighting), surfacesOf(stage, extent, materials, options.reaches),
                tileSize(extent)),
-      backgroundArray(makeVertexArray(gl)),
-      backgroundProgram(
-          linkProgram(gl, shaders, {"background.vert", "background.frag", "write_lit.frag", "finish.frag"})) {
+      background(gl, shaders) {
   if (shadows) {
     shadowBatch.emplace(gl, shaders);
   }
@@ -303,15 +292,6 @@ void Renderer::Parts::takeByShadows() const {
   gl.BlendFuncSeparate(GL_ONE_MINUS_DST_COLOR, GL_SRC1_COLOR, GL_ONE, GL_ZERO);
 }
 
-void Renderer::Parts::castOnSurfaces() const {
-  gl.Disable(GL_CULL_FACE);
-  gl.Enable(GL_POLYGON_OFFSET_FILL);
-  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
-  shadowBatch->draw();
-  gl.Disable(GL_POLYGON_OFFSET_FILL);
-  gl.Enable(GL_CULL_FACE);
-}
-
 void Renderer::Parts::drawShaded(std::size_t layer, Cast cast) {
   const bool castsOnSurfaces = layer + 1 == boxes.layers() && cast == Cast::kEverywhere;
   if (boxes.hasShaded()) {
@@ -323,7 +303,7 @@ void Renderer::Parts::drawShaded(std::size_t layer, Cast cast) {
   gatherShadows();
   boxes.drawShadows(layer);
   if (castsOnSurfaces) {
-    castOnSurfaces();
+    shadowBatch->draw();
   }
   takeByShadows();
   boxes.drawShaded(layer);
@@ -343,39 +323,23 @@ void Renderer::Parts::drawBoxes(Cast cast) {
   }
 }
 
-void Renderer::Parts::drawBackground(unsigned program) const {
+// Of the picture, where no surface fills them.
+std::vector<PixelRectangle> Renderer::Parts::bareParts() const {
   const int width = canvas.drawnWidth();
   const int height = canvas.drawnHeight();
-  gl.UseProgram(program);
-  gl.BindVertexArray(backgroundArray);
-  gl.Enable(GL_SCISSOR_TEST);
-  for (const PixelRectangle& at :
-       pixelsOf(changed.cells() & ~surfaces.filled(view, width, height), width, height)) {
-    gl.Scissor(at.left, at.bottom, at.right - at.left, at.top - at.bottom);
-    gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  }
-  gl.Disable(GL_SCISSOR_TEST);
+  return pixelsOf(changed.cells() & ~surfaces.filled(view, width, height), width, height);
 }
 
 void Renderer::Parts::drawStage(const PictureCells& shaded, const PictureCells& occluded) {
-  gl.Enable(GL_POLYGON_OFFSET_FILL);
-  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
   surfaces.draw(shaded, occluded, changed.cells(), canvas.drawnWidth(), canvas.drawnHeight());
-  gl.Disable(GL_POLYGON_OFFSET_FILL);
-  drawBackground(backgroundProgram);
+  background.draw(bareParts());
   surfaces.drawGlass();
 }
 
 // Surfaces that hide boxes, and all that is behind.
 void Renderer::Parts::drawBlack() {
-  if (blackProgram == 0) {
-    blackProgram = linkProgram(gl, shaders, {"background.vert", "background.frag", "write_black.frag"});
-  }
-  gl.Enable(GL_POLYGON_OFFSET_FILL);
-  gl.PolygonOffset(kSunkSlopes, kSunkSteps);
   surfaces.drawBlack();
-  gl.Disable(GL_POLYGON_OFFSET_FILL);
-  drawBackground(blackProgram);
+  background.drawBlack(bareParts());
 }
 
 // All but the drawing of the picture itself.
@@ -417,12 +381,6 @@ Picture Renderer::Parts::drawn(const Draw& draw) {
   Picture picture = canvas.read(pixelsOf(changed.cells(), canvas.drawnWidth(), canvas.drawnHeight()));
   figures.readSeconds += secondsSince(drawnAt);
   return picture;
-}
-
-void Renderer::Parts::drawOver(Picture& picture, const OverlayShapes& shapes) {
-  overlays.try_emplace({picture.width, picture.height}, gl, shaders, picture.width, picture.height)
-      .first->second.drawOver(picture, shapes);
-  ++figures.overlayPasses;
 }
 
 Renderer::Renderer(const RunSetup& setup, const RenderOptions& options)
@@ -467,7 +425,7 @@ MatteParts Renderer::drawMatte(const Shot& shot) {
         parts.surfaces.drawDepth();
       }
       parts.gatherShadows();
-      parts.castOnSurfaces();
+      parts.shadowBatch->draw();
       parts.takeByShadows();
     }
     parts.drawStage(parts.shadedCells, parts.occludedCells);
@@ -481,10 +439,14 @@ MatteParts Renderer::drawMatte(const Shot& shot) {
 View Renderer::view(const Camera& camera) const { return viewOf(camera, parts_->extent, parts_->aspect); }
 
 void Renderer::drawOver(Picture& picture, const OverlayShapes& shapes) {
+  Parts& parts = *parts_;
   const Clock::time_point begun = Clock::now();
-  parts_->context->makeCurrent();
-  parts_->drawOver(picture, shapes);
-  parts_->figures.drawSeconds += secondsSince(begun);
+  parts.context->makeCurrent();
+  const std::pair size(picture.width, picture.height);
+  parts.overlays.try_emplace(size, parts.gl, parts.shaders, picture.width, picture.height)
+      .first->second.drawOver(picture, shapes);
+  ++parts.figures.overlayPasses;
+  parts.figures.drawSeconds += secondsSince(begun);
 }
 
 const std::string& Renderer::rendererName() const { return parts_->gl.description; }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/draw/light_plane.h"
+#include "render/draw/surface_batch.h"
 #include "render/gl/gl.h"
 #include "render/gl/shader.h"
 
@@ -61,7 +62,12 @@ void ShadowBatch::fill(const CellInputs* inputs, const PictureCells::Set& cells)
 void ShadowBatch::draw() const {
   gl_.UseProgram(program_);
   gl_.BindVertexArray(array_);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.Enable(GL_POLYGON_OFFSET_FILL);
+  gl_.PolygonOffset(kSunkSlopes, kSunkSteps);
   gl_.DrawElements(GL_TRIANGLES, indices_.count(), GL_UNSIGNED_INT, nullptr);
+  gl_.Disable(GL_POLYGON_OFFSET_FILL);
+  gl_.Enable(GL_CULL_FACE);
 }
 
 }  // namespace careen

@@ -173,6 +173,8 @@ void SurfaceBatch::draw(const PictureCells& shadows, const PictureCells& occlusi
       });
   gl_.BindVertexArray(array_);
   gl_.Enable(GL_SCISSOR_TEST);
+  gl_.Enable(GL_POLYGON_OFFSET_FILL);
+  gl_.PolygonOffset(kSunkSlopes, kSunkSteps);
   for (const Group& group : groups_) {
     for (int needs = 0; needs < 4; ++needs) {
       const std::vector<PixelRectangle>& own = parts.at(static_cast<std::size_t>(needs));
@@ -187,6 +189,7 @@ void SurfaceBatch::draw(const PictureCells& shadows, const PictureCells& occlusi
       }
     }
   }
+  gl_.Disable(GL_POLYGON_OFFSET_FILL);
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.Disable(GL_BLEND);
 }
@@ -200,7 +203,10 @@ void SurfaceBatch::drawBlack() {
   }
   gl_.UseProgram(blackProgram_);
   gl_.BindVertexArray(array_);
+  gl_.Enable(GL_POLYGON_OFFSET_FILL);
+  gl_.PolygonOffset(kSunkSlopes, kSunkSteps);
   gl_.DrawArrays(GL_TRIANGLES, 0, vertices_.count());
+  gl_.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
 void SurfaceBatch::drawDepth() const {

@@ -14,6 +14,12 @@ namespace careen {
 
 struct Gl;
 
+/// Floors and walls, and what lies on them, are behind by this part of what their depth changes in a pixel,
+/// and by so many steps of its precision: a box that has sunk into one by less hides it, and what it has
+/// drawn is not taken for shadow.
+inline constexpr float kSunkSlopes = 0.5F;
+inline constexpr float kSunkSteps = 8;
+
 /// Floor and walls. Vertices are recomputed only when the eye has moved, or walls have.
 class SurfaceBatch {
  public:
