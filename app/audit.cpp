@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -15,8 +13,10 @@
 #include "core/characters.h"
 #include "core/error.h"
 #include "core/system/file.h"
-#include "report.h"
-#include "run.h"
+#include "parsed.h"
+#include "run_options.h"
+#include "runs/run_report.h"
+#include "summary.h"
 
 namespace careen {
 namespace {
@@ -50,17 +50,12 @@ AuditLimits limitsOf(const AuditOptions& options) {
     limits.table = *options.tolerance;
   }
   for (const std::string& each : options.allowed) {
-    const std::size_t equals = each.find('=');
-    const AuditKind kind = kindNamed(each.substr(0, equals));
-    const std::string text = equals == std::string::npos ? "" : each.substr(equals + 1);
-    double size = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size);
-    const bool isNumber = error == std::errc() && end == text.data() + text.size() && std::isfinite(size);
-    if (text != "any" && !(isNumber && size >= 0)) {
-      throw InputError("--allow: found '" + each +
-                       "', expected KIND=SIZE, such as box_overlap=0.001, or KIND=any");
-    }
-    limits.sizes[kind] = text == "any" ? std::nullopt : std::optional(size);
+    const std::size_t equals = std::min(each.find('='), each.size());
+    const std::string size = each.substr(std::min(equals + 1, each.size()));
+    limits.sizes[kindNamed(each.substr(0, equals))] =
+        size == "any" ? std::nullopt
+                      : std::optional(numberIn("--allow", size,
+                                               "KIND=SIZE, such as box_overlap=0.001, or KIND=any", 0));
   }
   return limits;
 }
@@ -110,9 +105,7 @@ ExitCode auditCommand(const AuditOptions& options, const std::stop_token& stop) 
     throw InputError("--tolerance: found the run " + options.run.string() +
                      ", which is held to what its method promises; expected a table of poses, or --allow");
   }
-  const Stopwatch auditing;
-  run.audit = audit(run.trajectory, options.choice.auditDepth(), stop, limits);
-  run.auditSeconds = auditing.seconds();
+  auditRun(run, options.choice.auditDepth(), stop, limits);
   if (!options.report.empty()) {
     writeFile(options.report, runReportText(run, stopwatch.seconds()));
   }

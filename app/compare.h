@@ -9,7 +9,7 @@
 
 #include "compare/comparison.h"
 #include "core/error.h"
-#include "run.h"
+#include "run_options.h"
 
 namespace careen {
 
@@ -31,12 +31,6 @@ struct CompareOptions {
   /// InputError for everything that can be found wrong before the comparison.
   ComparisonSettings settings() const;
 };
-
-/// Compares two pictures, two folders of frames, or two runs. InputError if they are not of one kind. A table
-/// of poses is a run; if `scene` is empty it is one of the scene of the other run.
-Comparison compare(const std::filesystem::path& expected, const std::filesystem::path& actual,
-                   const ComparisonSettings& settings, const SceneOfTable& scene,
-                   const std::stop_token& stop);
 
 /// Prints the result in words and, if `logsFrames`, as one line of JSON per frame. Words go to standard
 /// output, or to standard error if the JSON goes to standard output.

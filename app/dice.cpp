@@ -1,7 +1,6 @@
 #include "study/dice.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -16,7 +15,8 @@
 #include "core/brief.h"
 #include "core/error.h"
 #include "core/system/file.h"
-#include "run.h"
+#include "parsed.h"
+#include "run_options.h"
 #include "simulation_progress.h"
 #include "status_line.h"
 #include "study/dice_plots.h"
@@ -41,13 +41,8 @@ std::vector<double> numbersIn(const char* option, const std::vector<std::string>
                               double most) {
   std::vector<double> numbers;
   for (const std::string& text : texts) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || !(number >= least && number <= most)) {
-      throw InputError(std::string(option) + ": found '" + text + "', expected numbers from " + brief(least) +
-                       " to " + brief(most));
-    }
-    numbers.push_back(number);
+    numbers.push_back(
+        numberIn(option, text, "numbers from " + brief(least) + " to " + brief(most), least, most));
   }
   return numbers;
 }

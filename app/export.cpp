@@ -14,7 +14,7 @@
 #include "exchange/export_glb.h"
 #include "exchange/exporters.h"
 #include "parsed.h"
-#include "run.h"
+#include "run_options.h"
 #include "scene/scene_reader.h"
 #include "study/force_plot.h"
 
@@ -89,7 +89,7 @@ void check(const ExportOptions& options, ExportOption taken) {
 
 // Boxes may overlap, as in MuJoCo: whoever runs the scene decides what then.
 void writeScene(const ExportOptions& options) {
-  const auto [text, name] = sceneTextOf(options.source, readFile(options.source));
+  const auto [text, name] = sceneTextOf(options.source, readFile(options.source), tellNotice);
   static_cast<void>(parseScene(text, name, Starts::kMayOverlap));
   writeFile(options.output, text);
 }

@@ -1,10 +1,6 @@
 #include "film_sound.h"
 
-#include <cstdint>
-#include <vector>
-
 #include "core/error.h"
-#include "film/frame_range.h"
 #include "sound/sound_track.h"
 
 namespace careen {
@@ -26,20 +22,9 @@ std::string SoundChoice::of(const Trajectory& run, FilmSettings& settings,
   if (!asked) {
     return {};
   }
-  const FrameRate& rate = run.stage.picture.rate;
-  const double duration = run.stage.timeMap.within(run.settings.duration).duration();
-  const std::vector<std::int64_t> frames = framesOf(settings.frames, rate.frameCount(duration));
-  for (std::size_t k = 1; k < frames.size(); ++k) {
-    if (frames[k] != frames[k - 1] + 1) {
-      throw InputError("--sound: found frame " + std::to_string(frames[k]) + " after frame " +
-                       std::to_string(frames[k - 1]) +
-                       " in --frames, expected frames that follow each other");
-    }
-  }
   try {
-    const double from = frames.empty() ? 0 : rate.frameTime(frames.front());
-    const double to = frames.empty() ? 0 : rate.frameTime(frames.back() + 1);
-    std::string wav = wavOf(soundTrackOf(run, from, to, keepsPitch ? Pitch::kStays : Pitch::kSlows, stop));
+    std::string wav =
+        wavOf(soundTrackOf(run, settings.frames, keepsPitch ? Pitch::kStays : Pitch::kSlows, stop));
     if (settings.video) {
       settings.video->sound = wav;
       checkVideo(*settings.video);

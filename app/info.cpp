@@ -14,10 +14,10 @@
 #include "core/system/file.h"
 #include "physics/joint_freedom.h"
 #include "physics/world/method.h"
-#include "report.h"
-#include "run.h"
+#include "run_options.h"
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
+#include "summary.h"
 #include "sweep/family.h"
 #include "trajectory/impact_moment.h"
 
@@ -286,7 +286,7 @@ ExitCode infoCommand(std::filesystem::path path, const SceneOfTable& ofTable, co
       printFamily(Family(bytes, path.string()));
       return ExitCode::kDone;
     }
-    const auto [text, name] = sceneTextOf(path, bytes);
+    const auto [text, name] = sceneTextOf(path, bytes, tellNotice);
     const Scene scene = parseScene(text, name);
     printScene(scene);
     return ExitCode::kDone;

@@ -58,7 +58,7 @@ std::vector<std::string> namesOf(const OtherRuns& others, const Run& run) {
 
 }  // namespace
 
-CommandOption OtherRuns::addTo(const CommandLine& command) {
+void OtherRuns::addTo(const CommandLine& command) {
   const CommandOption besideThese = command.add(
       "--beside", beside,
       "Other runs (trajectory files or tables of poses), shown beside this one with the same camera, in "
@@ -72,7 +72,6 @@ CommandOption OtherRuns::addTo(const CommandLine& command) {
       "--ghost", ghost,
       "Another run of these boxes (trajectory file or table of poses): drawn as outlines, with the distance");
   outlines.excludes(besideThese);
-  return outlines;
 }
 
 std::vector<Trajectory> OtherRuns::read(Run& run, const SceneOfTable& scene) const {

@@ -7,7 +7,7 @@
 
 #include "command_line.h"
 #include "render/film/film_pictures.h"
-#include "run.h"
+#include "run_options.h"
 
 namespace careen {
 
@@ -18,8 +18,7 @@ struct OtherRuns {
   std::optional<std::string> plot;  ///< below the film
   std::string names;  ///< of the run and those beside it, separated by commas; empty: of their files
 
-  /// The options; the first of them.
-  CommandOption addTo(const CommandLine& command);
+  void addTo(const CommandLine& command);
   /// The ghost, if there is one, and those beside; the latter, and the run itself, are shown alike. Tables of
   /// poses are of the run's scene if none is given. InputError for what is no run, or has none of its boxes.
   std::vector<Trajectory> read(Run& run, const SceneOfTable& scene) const;

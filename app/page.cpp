@@ -6,15 +6,13 @@
 #include "commands.h"
 #include "core/characters.h"
 #include "core/system/file.h"
-#include "core/system/scratch_folder.h"
 #include "film_sound.h"
-#include "interruption.h"
 #include "page/run_page.h"
 #include "parsed.h"
 #include "picture_options.h"
 #include "progress.h"
 #include "render/film/film.h"
-#include "run.h"
+#include "run_options.h"
 
 namespace careen {
 namespace {
@@ -32,20 +30,17 @@ struct PageOptions {
   AuditChoice audit;
 };
 
-// By ffmpeg, in a folder that is gone afterwards.
 PageFilm filmOf(const Run& run, const PageOptions& options, const std::stop_token& stop) {
-  const ScratchFolder scratch;
   FilmSettings settings;
-  settings.folder = scratch.path() / "frames";
   settings.render.context = options.picture.contextOptions();
   settings.program = "careen " CAREEN_VERSION;
-  settings.video = VideoSettings{.path = scratch.path() / "film.mp4",
-                                 .quality = parsed("--quality", options.quality, videoQualityNamed)};
+  settings.video =
+      VideoSettings{.path = "film.mp4", .quality = parsed("--quality", options.quality, videoQualityNamed)};
   options.sound.of(run.trajectory, settings, stop);
   Progress progress;
-  renderFilm(
-      run.trajectory, settings, [&](const FilmProgress& now) { progress.update(now); }, stop);
-  return {.bytes = readFile(settings.video->path), .type = "video/mp4"};
+  return {.bytes = filmAsMp4(
+              run.trajectory, settings, [&](const FilmProgress& now) { progress.update(now); }, stop),
+          .type = "video/mp4"};
 }
 
 ExitCode pageCommand(PageOptions options, const std::stop_token& stop) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "core/error.h"
@@ -15,5 +16,11 @@ auto parsed(const char* option, const Value& value, Parse parse) {
     throw InputError(std::string(option) + ": " + error.what());
   }
 }
+
+/// The number that all of an option's text is, from `least` to `most`; InputError says what is expected.
+double numberIn(const char* option, const std::string& text, const std::string& expected, double least,
+                double most = std::numeric_limits<double>::max());
+/// The least positive number, where 0 is not one.
+inline constexpr double kAboveZero = std::numeric_limits<double>::denorm_min();
 
 }  // namespace careen

@@ -7,12 +7,11 @@
 
 namespace careen {
 
-CommandOption PictureOptions::addTo(const CommandLine& command) {
+void PictureOptions::addTo(const CommandLine& command) {
   SizeAndRate::addTo(command);
-  const CommandOption blur =
-      command.add("--shutter", shutter,
-                  "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
-                  "frame, and how many moments are averaged, such as 180:8; 0: none");
+  command.add("--shutter", shutter,
+              "Motion blur in place of the scene's: how long the shutter is open, 360 from frame to "
+              "frame, and how many moments are averaged, such as 180:8; 0: none");
   command.add("--look", look, "studio, blueprint or clay in place of the scene's look");
   command.add("--light", light,
               "Parts of the light in place of the scene's, such as shadows,occlusion (the others: bounce); "
@@ -20,12 +19,13 @@ CommandOption PictureOptions::addTo(const CommandLine& command) {
   command.add("--antialiasing", antialiasing, "off, edges, 4x or supersampled in place of the scene's");
   command.add("--overlays", overlays,
               "What to draw over the film in place of the scene's, such as time,energy; none: nothing");
-  command.add("--rendering-backend", backend,
-              "What draws: auto, osmesa or egl (default: auto, the first of the others that there is)");
+  command.add(
+      "--rendering-backend", backend,
+      "What draws: auto, osmesa or egl (default: auto, the first of the others that there is); list: render "
+      "tells what there is, and makes no film");
   command.add("--threads", context.threads,
               "Threads that fill pixels in each process that draws, and that share the steps of large crowds "
               "before; 0: none but the main one (default: what cores there are)");
-  return blur;
 }
 
 void PictureOptions::applyTo(PictureSettings& picture) const {
@@ -47,6 +47,8 @@ void PictureOptions::applyTo(PictureSettings& picture) const {
     picture.overlays = parsed("--overlays", *overlays, OverlaySet::named);
   }
 }
+
+bool PictureOptions::listsBackends() const { return backend == "list"; }
 
 ContextOptions PictureOptions::contextOptions() const {
   if (context.threads && *context.threads < 0) {

@@ -22,11 +22,12 @@ struct PictureOptions : SizeAndRate {
   std::string backend = "auto";
   ContextOptions context;
 
-  /// Returns the one of motion blur.
-  CommandOption addTo(const CommandLine& command);
+  void addTo(const CommandLine& command);
 
   /// Overrides the picture's settings with those that were given.
   void applyTo(PictureSettings& picture) const;
+  /// Whether the backends are to be told, and no film is to be made.
+  bool listsBackends() const;
   ContextOptions contextOptions() const;
   /// As many as may draw; none of its own is one.
   std::optional<int> threadsOfCrowds() const;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "render/film/film.h"
-#include "run.h"
+#include "run_options.h"
 #include "status_line.h"
 
 namespace careen {

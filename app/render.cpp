@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "approval.h"
 #include "commands.h"
 #include "compare.h"
 #include "core/characters.h"
 #include "core/error.h"
+#include "core/number_range.h"
 #include "core/system/file.h"
 #include "core/system/processor.h"
 #include "film/folder.h"
@@ -25,15 +25,16 @@
 #include "parsed.h"
 #include "picture_options.h"
 #include "progress.h"
-#include "reference.h"
 #include "render/film/film.h"
-#include "report.h"
-#include "run.h"
+#include "run_options.h"
+#include "runs/run_report.h"
 #include "simulation_progress.h"
 #include "still.h"
+#include "summary.h"
 #include "truth/truth_film.h"
 #include "truth/truth_frame.h"
 #include "view/out_of_view.h"
+#include "with_reference.h"
 
 namespace careen {
 namespace {
@@ -42,8 +43,7 @@ struct FilmOptions {
   std::filesystem::path source;
   std::filesystem::path folder;
   std::string frames;
-  std::optional<double> still;  ///< [s] of the film
-  std::optional<std::string> strobe;
+  std::optional<std::string> still;  ///< a moment [s] of the film, or a range of them
   std::optional<std::filesystem::path> video;
   std::string codec;
   std::string quality = "good";
@@ -53,7 +53,6 @@ struct FilmOptions {
   bool resume = false;
   bool overwrite = false;
   PictureOptions picture;
-  bool listBackends = false;
   SoundChoice sound;
   std::optional<std::filesystem::path> reference;
   bool approve = false;
@@ -85,7 +84,7 @@ void checkOut(const FilmOptions& options) {
   const bool isVideo = isAnyOf({".mp4", ".mkv", ".webm", ".webp", ".gif", ".mov", ".avi", ".apng"});
   const bool isPicture = isAnyOf({".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".tga", ".ppm", ".exr"});
   const std::string found = "--out: found " + options.folder.string() + ", expected ";
-  if (options.still || options.strobe) {
+  if (options.still) {
     if (isVideo || isPicture) {
       throw InputError(found + "the name of a PNG file, such as " +
                        std::filesystem::path(options.folder).replace_extension(".png").string());
@@ -97,6 +96,11 @@ void checkOut(const FilmOptions& options) {
   }
 }
 
+// [s] Of the film: none of a film, many of a picture that shows all of them.
+std::vector<double> momentsOf(const FilmOptions& options) {
+  return options.still ? parsed("--still", *options.still, numbersOfRange) : std::vector<double>();
+}
+
 // Checks everything that can be found wrong before the simulation.
 void check(const FilmOptions& options) {
   checkOut(options);
@@ -106,8 +110,9 @@ void check(const FilmOptions& options) {
   if (options.jobs && (*options.jobs < 1 || *options.jobs > kMostJobs)) {
     fail("--jobs", std::to_string(*options.jobs), "1 to " + std::to_string(kMostJobs));
   }
-  if (options.strobe && options.others.plot) {
-    fail("--plot", "it with --strobe", "a film or --still");
+  if (momentsOf(options).size() > 1 && (options.others.plot || options.others.ghost ||
+                                        !options.others.beside.empty() || options.picture.shutter)) {
+    fail("--still", "many moments with another run, a plot or a shutter", "one moment, or none of these");
   }
   if (options.log != "text" && options.log != "json") {
     fail("--log", "'" + options.log + "'", "text or json");
@@ -241,7 +246,7 @@ Reference openReference(FilmOptions& options) {
   if (!options.others.beside.empty() || options.others.plot) {
     throw InputError("--ref: found it with --beside or --plot, expected a film of one run");
   }
-  Reference reference = readReference(*options.reference);
+  Reference reference = parsed("--ref", *options.reference, readReference);
   takeFromReference(reference, options.picture, options.frames, options.compare);
   const ComparisonSettings settings = options.compare.settings();
   const auto [width, height] = parseSize(*options.picture.size);
@@ -283,7 +288,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (reference && !options.approve) {
     refuseToOverwrite(*reference, settings);
   }
-  const bool makesFilm = !options.still && !options.strobe;
+  const bool makesFilm = !options.still;
   if (makesFilm && !isRun(options.source) && !isMujocoModel(options.source)) {
     refuseFilmOfAnotherScene(settings, readFile(options.source));
   }
@@ -306,16 +311,13 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   }
   if (!makesFilm) {
     return drawStill(run, settings.render,
-                     {.path = options.folder,
-                      .moment = options.still.value_or(0),
-                      .strobe = options.strobe,
-                      .besides = settings.besides});
+                     {.path = options.folder, .moments = momentsOf(options), .besides = settings.besides});
   }
   const std::string sound = options.sound.of(run.trajectory, settings, stop);
   FilmSettings told = settings;
   std::optional<Approval> approval;
   if (options.approve) {
-    approval.emplace(*reference);
+    parsed("--approve", *reference, [&](const Reference& each) { approval.emplace(each); });
     settings.folder = approval->folder();
     told.folder = reference->folder;
   }
@@ -339,7 +341,7 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   if (truth) {
     writeTruth(run.trajectory, *truth, {}, stop);
   }
-  estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop, simulation.ofEstimate());
+  options.estimate.estimate(run, stopwatch.seconds() - run.auditSeconds, stop, simulation.ofEstimate());
   if (!reference || (approval && std::filesystem::exists(reference->folder / "report.json"))) {
     writeReport(run, settings, figures, stopwatch.seconds());
   }
@@ -351,9 +353,9 @@ ExitCode renderCommand(FilmOptions options, const std::stop_token& stop) {
   }
   printFilm(summary, told, figures, reference ? &*reference : nullptr);
   if (approval) {
-    return approval->approve(options.compare, logsJson, stop);
+    return approveAndTell(*approval, options.compare, logsJson, stop);
   }
-  return reference ? compareWithReference(*reference, settings, options.compare, logsJson, stop)
+  return reference ? compareAndTell(*reference, settings.folder, options.compare, logsJson, stop)
                    : ExitCode::kDone;
 }
 
@@ -370,12 +372,12 @@ void addRender(const CommandLine& commandLine) {
                   "Folder for the frames, or file of a single picture (default: out/ and the file's name)");
   const CommandOption frames =
       command.add("--frames", options->frames, "Which frames, such as 0-119,200:2 (default: all)");
-  const CommandOption others = options->others.addTo(command);
+  options->others.addTo(command);
   const CommandOption truth =
       command.add("--truth", options->truth,
                   "Labels of every pixel of the frames too, as by 'careen truth': all, or names such as "
                   "depth,instance,flow");
-  const CommandOption blur = options->picture.addTo(command);
+  options->picture.addTo(command);
   command.addFlag(
       "--alpha", options->picture.alpha,
       "Boxes and their shadows on nothing, in PNG files with alpha, to be laid over other pictures");
@@ -399,13 +401,11 @@ void addRender(const CommandLine& commandLine) {
   overwrite.excludes(resume);
   const CommandOption still =
       command
-          .add("--still", options->still, "One picture, of this moment of the film [s], in place of the film")
+          .add(
+              "--still", options->still,
+              "One picture in place of the film: of this moment of it [s], or of many, FROM:TO:STEP, such as "
+              "0:2:0.1")
           .excludes(frames, video, resume, truth, sound);
-  const CommandOption strobe =
-      command
-          .add("--strobe", options->strobe,
-               "One picture of many moments of the film, FROM:TO:STEP [s], such as 0:2:0.1")
-          .excludes(frames, video, resume, truth, still, others, blur, sound);
   const CommandLine comparing =
       command.addGroup("Comparing", "With a film that was made before: exit code 1 if this one differs");
   const CommandOption reference =
@@ -413,7 +413,7 @@ void addRender(const CommandLine& commandLine) {
           .add("--ref", options->reference,
                "Folder of that film. Its frames are drawn, of its size, rate and look unless told "
                "otherwise; those that differ stay in --out")
-          .excludes(still, strobe, video, resume, truth, sound);
+          .excludes(still, video, resume, truth, sound);
   comparing
       .addFlag("--approve", options->approve,
                "The new film takes the place of that one unless they are the same; exit code 0")
@@ -422,8 +422,6 @@ void addRender(const CommandLine& commandLine) {
   const CommandLine how = comparing.addGroup("How", "What counts as different");
   options->compare.addTo(how);
   how.needs(reference);
-  command.addFlag("--list-rendering-backends", options->listBackends,
-                  "Tell which of them are available, and make no film");
   command.add(
       "--log", options->log,
       "text, or json: lines on the standard output while the scene is simulated, then one for each frame "
@@ -434,7 +432,8 @@ void addRender(const CommandLine& commandLine) {
   options->estimate.addTo(command);
   options->audit.addTo(command);
   command.runs([options](const std::stop_token& stop) {
-    return options->listBackends ? listBackends(options->picture.context) : renderCommand(*options, stop);
+    return options->picture.listsBackends() ? listBackends(options->picture.context)
+                                            : renderCommand(*options, stop);
   });
 }
 

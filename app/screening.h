@@ -4,7 +4,7 @@
 
 #include "picture_options.h"
 #include "render/film/film_pictures.h"
-#include "run.h"
+#include "run_options.h"
 
 namespace careen {
 

@@ -13,9 +13,10 @@
 #include "core/characters.h"
 #include "core/system/file.h"
 #include "exchange/exporters.h"
-#include "report.h"
-#include "run.h"
+#include "run_options.h"
+#include "runs/run_report.h"
 #include "simulation_progress.h"
+#include "summary.h"
 #include "trajectory/export_csv.h"
 #include "trajectory/export_npz.h"
 #include "trajectory/trajectory_file.h"
@@ -99,10 +100,10 @@ ExitCode simulateCommand(const SimulateOptions& options, const std::stop_token& 
   }
   const bool logsJson = options.log == "json";
   SimulationProgress progress(logsJson);
-  Run run = simulateScene(source, options.overrides, stop, progress.ofRun(options.overrides.mostRecords()),
-                          options.until);
+  Run run = simulateFile(source, options.overrides, stop, progress.ofRun(options.overrides.mostRecords()),
+                         options.until);
   auditRun(run, options.audit, stop);
-  estimate(run, options.estimate, stopwatch.seconds() - run.auditSeconds, stop, progress.ofEstimate());
+  options.estimate.estimate(run, stopwatch.seconds() - run.auditSeconds, stop, progress.ofEstimate());
 
   Outputs outputs;
   outputs.add(output, [&](const TextSink& sink) { writeTrajectory(run.trajectory, sink); });

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "physics/motion/run_progress.h"
-#include "run.h"
+#include "run_options.h"
 #include "status_line.h"
 
 namespace careen {

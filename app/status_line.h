@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "run.h"
+#include "run_options.h"
 
 namespace careen {
 

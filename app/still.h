@@ -1,22 +1,20 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "render/draw/renderer.h"
 #include "render/film/film_pictures.h"
-#include "run.h"
+#include "run_options.h"
 
 namespace careen {
 
 /// One picture instead of a film.
 struct Still {
-  std::filesystem::path path;         ///< empty: in out/, named after the scene
-  double moment = 0;                  ///< [s] of the film
-  std::optional<std::string> strobe;  ///< FROM:TO:STEP, instead of one time
-  ShownBesides besides = {};          ///< nothing in a strobe
+  std::filesystem::path path;   ///< empty: in out/, named after the scene
+  std::vector<double> moments;  ///< [s] of the film: one, or many in one picture
+  ShownBesides besides = {};    ///< of one moment
 };
 
 /// Writes the picture and prints its path.

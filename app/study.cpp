@@ -1,8 +1,6 @@
 #include "study/study.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -15,7 +13,8 @@
 #include "core/characters.h"
 #include "core/error.h"
 #include "core/system/file.h"
-#include "run.h"
+#include "parsed.h"
+#include "run_options.h"
 #include "study/case.h"
 #include "study/given_contestant.h"
 #include "study/node_peers.h"
@@ -82,15 +81,6 @@ Contestants chosenContestants(const std::vector<std::string>& names) {
   return chosen;
 }
 
-double secondsIn(const std::string& text) {
-  double seconds = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(seconds) || seconds <= 0) {
-    throw InputError("--seconds: found '" + text + "', expected a positive number of seconds");
-  }
-  return seconds;
-}
-
 // Other people's answers to the one case that is studied.
 void addGiven(const StudyOptions& options, const std::stop_token& stop, Contestants& contestants) {
   const auto expectAsMany = [&](const char* option, const std::vector<std::string>& texts, bool isNeeded) {
@@ -118,7 +108,7 @@ void addGiven(const StudyOptions& options, const std::stop_token& stop, Contesta
     }
     GivenAnswer answer{.label = label, .file = options.runs[i], .seconds = {}};
     if (!options.seconds.empty()) {
-      answer.seconds = secondsIn(options.seconds[i]);
+      answer.seconds = numberIn("--seconds", options.seconds[i], "a positive number of seconds", kAboveZero);
     }
     contestants.push_back(givenContestant(answer, study));
   }

@@ -16,7 +16,7 @@
 #include "film/frame_range.h"
 #include "parsed.h"
 #include "picture_size.h"
-#include "run.h"
+#include "run_options.h"
 #include "simulation_progress.h"
 #include "status_line.h"
 #include "sweep/sweep.h"

@@ -15,7 +15,7 @@
 #include "film/frame_range.h"
 #include "parsed.h"
 #include "picture_size.h"
-#include "run.h"
+#include "run_options.h"
 #include "truth/truth_film.h"
 
 namespace careen {

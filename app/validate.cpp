@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,18 +14,17 @@
 #include "core/characters.h"
 #include "core/error.h"
 #include "core/names.h"
+#include "core/number_range.h"
 #include "core/system/file.h"
-#include "run.h"
+#include "parsed.h"
+#include "run_options.h"
 #include "scene/scene_reader.h"
 #include "study/study.h"
-#include "study/validation.h"
-#include "study/validation_page.h"
-#include "trajectory/trajectory_file.h"
+#include "study/validation_run.h"
 
 namespace careen {
 namespace {
 
-constexpr std::size_t kMostPoints = 1000;  // of a sweep
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 struct ValidateOptions {
@@ -54,38 +52,16 @@ Sweep sweepOf(const std::string& text) {
   if (known == kParameterNames.end()) {
     fail("one of " + listed(kParameterNames) + ", and a range such as friction=0.1:0.3:0.02");
   }
-  std::vector<double> parts;
-  for (std::size_t at = equals == std::string::npos ? text.size() + 1 : equals + 1; at <= text.size();) {
-    const std::size_t end = std::min(text.find(':', at), text.size());
-    double number = 0;
-    const auto [last, error] = std::from_chars(text.data() + at, text.data() + end, number);
-    if (error != std::errc() || last != text.data() + end || !std::isfinite(number)) {
-      fail("numbers FROM:TO:STEP");
-    }
-    parts.push_back(number);
-    at = end + 1;
-  }
-  if (parts.size() != 3 || !(parts[0] >= 0 && parts[1] >= parts[0] && parts[2] > 0)) {
-    fail("FROM:TO:STEP with 0 <= FROM <= TO and STEP above 0");
-  }
-  Sweep sweep{.parameter = static_cast<Parameter>(known - kParameterNames.begin()), .values = {}};
-  if (sweep.parameter == Parameter::kRestitution && parts[1] > 1) {
+  const std::string range = text.substr(std::min(equals, text.size() - 1) + 1);
+  Sweep sweep{.parameter = static_cast<Parameter>(known - kParameterNames.begin()),
+              .values = parsed("--sweep", range, numbersOfRange)};
+  if (sweep.parameter == Parameter::kRestitution && sweep.values.back() > 1) {
     fail("a restitution of at most 1");
   }
-  if (sweep.parameter == Parameter::kInertia && parts[0] <= 0) {
+  if (sweep.parameter == Parameter::kInertia && sweep.values.front() <= 0) {
     fail("factors of the inertia above 0");
   }
-  constexpr double kRounding = 1e-9;  // of a step: 0.1 + 10 · 0.02 misses 0.3
-  if (!((parts[1] - parts[0]) / parts[2] < kMostPoints)) {
-    fail("at most " + std::to_string(kMostPoints) + " values");
-  }
-  for (std::size_t k = 0;; ++k) {
-    const double value = parts[0] + static_cast<double>(k) * parts[2];
-    if (value > parts[1] + kRounding * parts[2]) {
-      return sweep;
-    }
-    sweep.values.push_back(std::min(value, parts[1]));
-  }
+  return sweep;
 }
 
 std::vector<PoseTable> readMeasured(const std::vector<std::string>& paths) {
@@ -114,56 +90,26 @@ void print(const Toss& toss, double size) {
 
 ExitCode validateCommand(const ValidateOptions& options, const std::stop_token& stop) {
   const Sweep sweep = options.sweep.empty() ? Sweep{} : sweepOf(options.sweep);
-  const auto [text, name] = sceneTextOf(options.scene, readFile(options.scene));
-  const Scene scene = parseScene(text, name, Starts::kMayOverlap);
-  const std::vector<PoseTable> measured = readMeasured(options.measured);
-  if (!options.noPlots) {
+  const auto [text, name] = sceneTextOf(options.scene, readFile(options.scene), tellNotice);
+  const ValidationTask task{
+      .scene = parseScene(text, name, Starts::kMayOverlap),
+      .measured = readMeasured(options.measured),
+      .start = options.start == "first" ? MeasuredStart::kFirst : MeasuredStart::kFitted,
+      .swept = sweep.values.empty() ? std::nullopt : std::optional(sweep.parameter),
+      .values = sweep.values,
+      .folder = options.out,
+      .plots = !options.noPlots,
+      .program = "careen " CAREEN_VERSION};
+  if (task.plots) {
     checkPlotter();
   }
-  const RunSetup setup = setupOfMeasured(scene);
-  ValidationSettings settings;
-  settings.start = options.start == "first" ? MeasuredStart::kFirst : MeasuredStart::kFitted;
-  Validation found{.program = "careen " CAREEN_VERSION,
-                   .scene = scene.name,
-                   .size = sizeOf(setup.world),
-                   .tosses = {},
-                   .swept = {},
-                   .sweep = {},
-                   .sceneValue = {}};
-  const std::filesystem::path runs = options.out / "runs";
-  makeFolder(runs);
-  for (const PoseTable& table : measured) {
-    Trajectory run;
-    found.tosses.push_back(validate(setup, table, settings, stop, &run));
-    print(found.tosses.back(), found.size);
-    saveTrajectory(run, runs / (std::filesystem::path(table.name).stem().string() + ".careen"));
-  }
-  if (!sweep.values.empty()) {
-    found.swept = sweep.parameter;
-    found.sceneValue = valueOf(setup.world, sweep.parameter);
-    settings.floorRuns = 0;
-    for (const double value : sweep.values) {
-      settings.setting = Setting{.parameter = sweep.parameter, .value = value};
-      std::vector<Toss> tosses;
-      for (const PoseTable& table : measured) {
-        tosses.push_back(validate(setup, table, settings, stop));
-      }
-      found.sweep.push_back({.value = value,
-                             .place = spreadOf(tosses, &Toss::meanPlace).mean,
-                             .attitude = spreadOf(tosses, &Toss::meanAttitude).mean});
-      std::cout << options.sweep.substr(0, options.sweep.find('=')) << ' ' << brief(value) << ": place "
-                << brief(100 * found.sweep.back().place / found.size, 4) << " %, attitude "
-                << brief(found.sweep.back().attitude * kDegrees, 4) << "°\n"
-                << std::flush;
-    }
-    writeFile(options.out / "sweep.csv", sweepCsv(found.sweep, sweep.parameter));
-  }
-  writeFile(options.out / "results.csv", tossesCsv(found.tosses, found.size));
-  writeFile(options.out / "errors.csv", errorsCsv(found.tosses));
-  writeFile(options.out / "report.json", validationJson(found));
-  const std::vector<std::string> plots =
-      options.noPlots ? std::vector<std::string>{} : drawValidation(found, options.out / "plots");
-  writeFile(options.out / "index.html", validationPage(found, plots));
+  const auto tellPoint = [&](const SweepPoint& point, double size) {
+    std::cout << options.sweep.substr(0, options.sweep.find('=')) << ' ' << brief(point.value) << ": place "
+              << brief(100 * point.place / size, 4) << " %, attitude " << brief(point.attitude * kDegrees, 4)
+              << "°\n"
+              << std::flush;
+  };
+  const Validation found = runValidation(task, {.toss = print, .point = tellPoint}, stop);
   for (const std::string& line : summaryOf(found)) {
     std::cout << line << '\n';
   }

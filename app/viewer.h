@@ -13,7 +13,7 @@
 #include "picture_options.h"
 #include "render/window/player.h"
 #include "render/window/window.h"
-#include "run.h"
+#include "run_options.h"
 #include "screening.h"
 #include "view/orbit.h"
 

@@ -11,7 +11,7 @@
 #include "core/system/file.h"
 #include "core/table.h"
 #include "question/moments.h"
-#include "run.h"
+#include "run_options.h"
 
 namespace careen {
 namespace {
@@ -63,7 +63,7 @@ std::vector<Question> questionsOf(const WhenOptions& options, const World& world
 
 ExitCode whenCommand(const WhenOptions& options, const std::stop_token& stop) {
   if (!isRun(options.run) && !isMujocoModel(options.run)) {
-    questionsOf(options, setupOfScene(options.run).world);  // before it is simulated
+    questionsOf(options, setupOfScene(options.run, tellNotice).world);  // before it is simulated
   }
   const Run run = loadRun(options.run, options.overrides, options.scene, stop);
   const std::vector<Question> questions = questionsOf(options, run.trajectory.world);

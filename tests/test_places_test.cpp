@@ -75,6 +75,9 @@ TEST(TestPlaces, everyTestLiesWhereItsSourceDoes) {
 // Sources that have no test of their name, and why.
 const std::map<std::string, std::string> kWithoutTest = {
     {"audit/kinds", "names only"},
+    {"compare/approval", "replaces films; tested by app/render_reference_test"},
+    {"compare/films", "reads manifests beside compareFolders(); tested by app/compare_films_test"},
+    {"compare/reference", "keeps what differs of films; tested by app/render_reference_test"},
     {"core/math/linear_algebra", "aliases only"},
     {"core/math/pose", "data and one sum, tested through everything that moves"},
     {"library/run_data", "tested through the header, careen"},
@@ -123,6 +126,7 @@ const std::map<std::string, std::string> kWithoutTest = {
     {"stage/stage", "data only"},
     {"stage/triangle_mesh", "data only"},
     {"study/contestant", "an interface"},
+    {"study/validation_run", "writes what validation finds; tested by app/validate_test"},
     {"trajectory/motion_format", "a part of the record, tested whole by trajectory_format"},
     {"trajectory/stage_format", "a part of the record, tested whole by trajectory_format"},
     {"trajectory/world_format", "a part of the record, tested whole by trajectory_format"},

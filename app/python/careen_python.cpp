@@ -6,6 +6,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -81,8 +84,18 @@ std::vector<double> effortsOf(const py::object& control, double time, const std:
   return efforts;
 }
 
-Run simulate(const py::object& given, const std::optional<std::string>& method,
-             std::optional<double> tolerance, int threads, const py::object& control,
+// What the run has in place of the scene's own.
+struct Replaced {
+  std::optional<std::string> method;
+  std::optional<double> tolerance;
+  std::optional<double> step;
+  std::optional<double> duration;
+  bool allowsOverlap = false;
+  std::string until;
+  int threads = 1;
+};
+
+Run simulate(const py::object& given, const Replaced& replaced, const py::object& control,
              std::optional<double> period) {
   Scene scene = sceneOf(given);
   if (control.is_none() == period.has_value()) {
@@ -94,13 +107,22 @@ Run simulate(const py::object& given, const std::optional<std::string>& method,
       return effortsOf(control, time, boxes, joints);
     });
   }
-  if (method) {
-    scene.method(*method);
+  if (replaced.method) {
+    scene.method(*replaced.method);
   }
-  if (tolerance) {
-    scene.tolerance(*tolerance);
+  if (replaced.tolerance) {
+    scene.tolerance(*replaced.tolerance);
   }
-  scene.threads(threads);
+  if (replaced.step) {
+    scene.step(*replaced.step);
+  }
+  if (replaced.duration) {
+    scene.duration(*replaced.duration);
+  }
+  if (replaced.allowsOverlap) {
+    scene.allowOverlap();
+  }
+  scene.until(replaced.until).threads(replaced.threads);
   const py::gil_scoped_release unlocked;
   return Run(scene);
 }
@@ -306,6 +328,50 @@ py::dict differenceOf(const Run& run, const Run& other) {
   return difference;
 }
 
+py::object estimateOf(const Run& run) {
+  std::optional<careen::v1::ErrorEstimate> found;
+  {
+    const py::gil_scoped_release unlocked;
+    found = run.estimateError();
+  }
+  if (!found) {
+    return py::none();
+  }
+  py::dict estimate;
+  estimate["position"] = found->position;
+  estimate["angle"] = found->angle;
+  estimate["until"] = found->until;
+  estimate["holds"] = found->holds;
+  return estimate;
+}
+
+py::object fromJson(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
+
+py::object reportOf(const Run& run) {
+  std::string report;
+  {
+    const py::gil_scoped_release unlocked;
+    report = run.report();
+  }
+  return fromJson(report);
+}
+
+py::dict compare(const std::filesystem::path& expected, const std::filesystem::path& actual,
+                 careen::v1::Allowed allowed, const std::filesystem::path& page,
+                 const std::filesystem::path& scene) {
+  careen::v1::Comparison found;
+  {
+    const py::gil_scoped_release unlocked;
+    found = careen::v1::compare(expected, actual, allowed, page, scene);
+  }
+  py::dict comparison;
+  comparison["same"] = found.same;
+  comparison["headline"] = found.headline;
+  comparison["different"] = found.different;
+  comparison["report"] = fromJson(found.report);
+  return comparison;
+}
+
 // Exceptions of the module: careen.Error, and careen.SceneError with file, line and column.
 void addErrors(py::module_& module) {
   static const py::object error = py::exception<careen::v1::Error>(module, "Error", PyExc_RuntimeError);
@@ -395,7 +461,7 @@ PYBIND11_MODULE(careen, module) {
           "film",
           [](const Run& run, const std::filesystem::path& folder,
              const std::optional<std::filesystem::path>& video, const std::string& quality,
-             const std::string& frames, const Size& size, bool alpha, bool replace,
+             const std::string& frames, const Size& size, bool alpha, bool sound, bool replace,
              const std::optional<int>& jobs) {
             run.film({.folder = folder,
                       .video = video.value_or(""),
@@ -403,22 +469,53 @@ PYBIND11_MODULE(careen, module) {
                       .frames = frames,
                       .size = size,
                       .alpha = alpha,
+                      .sound = sound,
                       .replace = replace,
                       .jobs = jobs});
           },
           py::arg("folder"), py::kw_only(), py::arg("video") = py::none(), py::arg("quality") = "good",
           py::arg("frames") = "", py::arg("size") = py::none(), py::arg("alpha") = false,
-          py::arg("replace") = false, py::arg("jobs") = py::none(), py::call_guard<py::gil_scoped_release>(),
+          py::arg("sound") = false, py::arg("replace") = false, py::arg("jobs") = py::none(),
+          py::call_guard<py::gil_scoped_release>(),
           "Draws the film into a folder as careen render does: PNG frames and, if a video is named, that too "
           "(.mp4, .webm ..., by ffmpeg; quality draft, good or best). frames such as '0-119,200:2', all if "
-          "empty; size (width, height) [px]; alpha: boxes and shadows on nothing; replace another film that "
-          "is "
-          "there; jobs: processes. They are forked: not after frame() in the same process.")
+          "empty; size (width, height) [px]; alpha: boxes and shadows on nothing; sound: sound.wav beside "
+          "the frames, and in the video; replace "
+          "another film that is there; jobs: processes. They are forked: not after frame() in the same "
+          "process.")
       .def(
           "export", &Run::exportTo, py::arg("path"), py::arg("every") = 1.0 / 60,
           py::call_guard<py::gil_scoped_release>(),
           "Writes a file of another program, by the end of its name: .glb (glTF), .xml (MJCF), .npz or .csv, "
           "tables with poses at every so many seconds.")
+      .def(
+          "page",
+          [](const Run& run, const std::filesystem::path& path, const std::string& quality,
+             const std::array<int, 2>& size,
+             bool sound) { run.page({.path = path, .quality = quality, .size = size, .sound = sound}); },
+          py::arg("path"), py::kw_only(), py::arg("quality") = "good", py::arg("size") = std::array{640, 360},
+          py::arg("sound") = false, py::call_guard<py::gil_scoped_release>(),
+          "Writes a page for a browser: the film, of this quality and size (width, height) [px], energies, "
+          "impacts and audit. Processes are forked, as by film().")
+      .def(
+          "labels",
+          [](const Run& run, const std::filesystem::path& folder, const std::string& channels,
+             const std::string& frames, const Size& size, const std::optional<int>& jobs) {
+            run.labels(
+                {.folder = folder, .channels = channels, .frames = frames, .size = size, .jobs = jobs});
+          },
+          py::arg("folder"), py::kw_only(), py::arg("channels") = "all", py::arg("frames") = "",
+          py::arg("size") = py::none(), py::arg("jobs") = py::none(),
+          py::call_guard<py::gil_scoped_release>(),
+          "Writes labels of every pixel of the film's frames into a folder, as careen truth does: 000000.npz "
+          "..., truth.json. channels such as 'depth,instance,flow'; frames, size and jobs as for film().")
+      .def("estimate_error", &estimateOf,
+           "How wrong the run is, from other runs of the scene that take one to three times as long, a "
+           "dictionary: position [m], angle [rad], until [s], and holds, the part of scenes in which it is "
+           "no larger, or None. None if they fail, and of a table of poses.")
+      .def_property_readonly("report", &reportOf,
+                             "What was modelled, speed, error and audit, a dictionary: report.json of careen "
+                             "simulate.")
       .def("difference_from", &differenceOf, py::arg("other"),
            "How far the run is from another one of the same scene, a dictionary: incomparable, list of str, "
            "why "
@@ -429,20 +526,61 @@ PYBIND11_MODULE(careen, module) {
       .def("save", &Run::save, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
            "Writes the run as a file that careen render and careen.read_run take.");
   module.def(
-      "simulate", &simulate, py::arg("scene"), py::kw_only(), py::arg("method") = py::none(),
-      py::arg("tolerance") = py::none(), py::arg("threads") = 1, py::arg("control") = py::none(),
+      "simulate",
+      [](const py::object& scene, const std::optional<std::string>& method, std::optional<double> tolerance,
+         std::optional<double> step, std::optional<double> duration, bool allowOverlap,
+         const std::string& until, int threads, const py::object& control, std::optional<double> period) {
+        return simulate(scene,
+                        {.method = method,
+                         .tolerance = tolerance,
+                         .step = step,
+                         .duration = duration,
+                         .allowsOverlap = allowOverlap,
+                         .until = until,
+                         .threads = threads},
+                        control, period);
+      },
+      py::arg("scene"), py::kw_only(), py::arg("method") = py::none(), py::arg("tolerance") = py::none(),
+      py::arg("dt") = py::none(), py::arg("duration") = py::none(), py::arg("allow_overlap") = false,
+      py::arg("until") = "", py::arg("threads") = 1, py::arg("control") = py::none(),
       py::arg("period") = py::none(),
-      "Simulates a scene: the path of a scene file, or a dictionary with the same keys (motion of fixed "
-      "boxes and walls, gravity that changes, parts and joints among them). method (str) and "
-      "tolerance [m] replace those of the scene; threads share the steps of large crowds, and nothing but "
-      "the time depends on them. control(t, boxes, joints) is called each period [s], with the arrays of "
-      "Run.states "
-      "without times, and (coordinate, rate) of each joint by name; it returns efforts [N m] or [N] by name "
-      "of a "
+      "Simulates a scene: the path of a scene file or of a model of MuJoCo (.xml), or a dictionary with the "
+      "keys of scene files (motion of fixed boxes and walls, gravity that changes, parts and joints among "
+      "them). method (str), tolerance [m], dt [s] and duration [s] replace those of the scene; "
+      "allow_overlap moves boxes apart that overlap at the start; the run ends when the statement until, "
+      "such "
+      "as 'rest', becomes true; threads share the steps of large crowds, and nothing but the time depends on "
+      "them. control(t, boxes, joints) is called each period [s], with the arrays of Run.states without "
+      "times, and (coordinate, rate) of each joint by name; it returns efforts [N m] or [N] by name of a "
       "hinge or slider, which are held until the next time. SceneError says what is wrong with a scene, and "
       "where.");
-  module.def("read_run", &Run::read, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
-             "Reads a run that Run.save or careen simulate wrote.");
+  module.def(
+      "read_run", &Run::read, py::arg("path"), py::arg("scene") = "",
+      py::call_guard<py::gil_scoped_release>(),
+      "Reads a run that Run.save or careen simulate wrote, or a table of poses (CSV, NPZ) of the boxes "
+      "of a scene file. A run takes camera, film, look and light from the scene, if there is one.");
+  module.def(
+      "compare",
+      [](const std::filesystem::path& expected, const std::filesystem::path& actual,
+         const std::string& threshold, const std::vector<std::string>& limits, std::optional<double> motion,
+         std::optional<double> until, const std::vector<std::string>& ignored,
+         const std::filesystem::path& page, const std::filesystem::path& scene) {
+        return compare(
+            expected, actual,
+            {.threshold = threshold, .limits = limits, .motion = motion, .until = until, .ignored = ignored},
+            page, scene);
+      },
+      py::arg("expected"), py::arg("actual"), py::kw_only(), py::arg("threshold") = "same-picture",
+      py::arg("limits") = std::vector<std::string>(), py::arg("motion") = 0.0, py::arg("until") = py::none(),
+      py::arg("ignored") = std::vector<std::string>(), py::arg("page") = "", py::arg("scene") = "",
+      "Compares two pictures, two folders of frames, or two runs (trajectory files or tables of poses, of a "
+      "scene file if they need one). threshold: exact, same-machine, same-picture or other-renderer; limits "
+      "in place of its own, such as ['failpercent=5']; motion: how far apart boxes of runs may be, in their "
+      "half diagonals or radians, 0: bit for bit; of films, None: another motion does not count; until [s]; "
+      "ignored: 'x,y,width,height' [px] or "
+      "masks; page: a folder for a report. A dictionary: same (bool), headline (str), different (list of "
+      "str, "
+      "frames) and report (dict), its report.json.");
   module.def(
       "sweep",
       [](const std::filesystem::path& family, const std::filesystem::path& folder,

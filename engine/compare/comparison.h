@@ -69,19 +69,19 @@ std::filesystem::path expectedFrame(const Comparison& comparison, const FrameCom
 std::filesystem::path actualFrame(const Comparison& comparison, const FrameComparison& frame);
 
 struct ComparisonSettings {
-  std::string program;
+  std::string program = {};
   std::string toleranceName = "same-picture";
   Tolerance tolerance = toleranceOf("same-picture");  ///< of pictures
   /// Tolerance of positions [1], see PoseDifference; 0: every bit counts. If it is not 0, impacts need not
   /// be the same.
   double motionTolerance = 0;
   double until = std::numeric_limits<double>::infinity();  ///< [s] runs are compared up to this time
-  bool motionCounts = true;    ///< a film of a different motion differs, even if its pictures are the same
-  IgnoredRegions ignored;      ///< of pictures
-  bool flip = false;           ///< also compute ꟻLIP, which takes ten times as long as all the rest
-  int threads = 1;             ///< frames compared in parallel
-  bool subfolders = true;      ///< for folders: pictures in their sub-folders, too
-  std::set<std::string> only;  ///< for folders: only frames of these names; empty: all
+  bool motionCounts = true;     ///< a film of a different motion differs, even if its pictures are the same
+  IgnoredRegions ignored = {};  ///< of pictures
+  bool flip = false;            ///< also compute ꟻLIP, which takes ten times as long as all the rest
+  int threads = 1;              ///< frames compared in parallel
+  bool subfolders = true;       ///< for folders: pictures in their sub-folders, too
+  std::set<std::string> only = {};  ///< for folders: only frames of these names; empty: all
 };
 
 /// Reports how many frames of how many are compared.

@@ -1,11 +1,15 @@
 #include "compare/tolerance.h"
 
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <sstream>
 #include <utility>
 
+#include "core/brief.h"
+#include "core/error.h"
 #include "core/names.h"
 
 namespace careen {
@@ -141,6 +145,45 @@ PictureJudgement judge(const PictureDifference& difference, const Tolerance& tol
           !tolerance.excuseEdges);
   reasons = warnings.take();
   return {reasons.empty() ? Verdict::kSame : Verdict::kWarning, std::move(reasons)};
+}
+
+std::string setLimit(Tolerance& tolerance, const std::string& text) {
+  struct Limit {
+    std::string_view name;
+    double Tolerance::*value;
+    double most;
+  };
+  constexpr double kAny = Tolerance::kAny;
+  constexpr std::array<Limit, 10> kLimits = {{{"fail", &Tolerance::fail, 1},
+                                              {"failpercent", &Tolerance::failPercent, 100},
+                                              {"hardfail", &Tolerance::hardFail, kAny},
+                                              {"warn", &Tolerance::warn, 1},
+                                              {"warnpercent", &Tolerance::warnPercent, 100},
+                                              {"hardwarn", &Tolerance::hardWarn, kAny},
+                                              {"changedpercent", &Tolerance::changedPercent, 100},
+                                              {"edgepercent", &Tolerance::edgePercent, 100},
+                                              {"ssim", &Tolerance::leastSsim, 1},
+                                              {"windowssim", &Tolerance::leastWindowSsim, 1}}};
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const auto* const found = std::find_if(kLimits.begin(), kLimits.end(), [&](const Limit& each) {
+    return each.name == std::string_view(text).substr(0, equals);
+  });
+  if (found == kLimits.end()) {
+    std::string known;
+    for (const Limit& each : kLimits) {
+      known.append(known.empty() ? "" : ", ").append(each.name);
+    }
+    throw InputError("found '" + text + "', expected NAME=NUMBER, with one of: " + known);
+  }
+  const char* const begin = text.data() + std::min(equals + 1, text.size());
+  double limit = 0;
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), limit);
+  if (error != std::errc() || end != text.data() + text.size() || !(limit >= 0 && limit <= found->most)) {
+    throw InputError("found '" + text + "', expected " + std::string(found->name) + "=0 " +
+                     (found->most < kAny ? "to " + brief(found->most) : "or more"));
+  }
+  tolerance.*found->value = limit;
+  return std::string(found->name) + "=" + brief(limit);
 }
 
 }  // namespace careen

@@ -47,6 +47,11 @@ inline constexpr std::array<std::string_view, 4> kToleranceNames = {"exact", "sa
 /// InputError, which lists all names, for an unknown name.
 Tolerance toleranceOf(std::string_view name);
 
+/// Sets one of the numbers, such as "fail=0.1". Names are those of idiff's options where it has one: fail,
+/// failpercent, hardfail, warn, warnpercent, hardwarn, changedpercent, edgepercent, ssim (the least of the
+/// picture), windowssim. Returns name and number. InputError for another name, or a number out of bounds.
+std::string setLimit(Tolerance& tolerance, const std::string& text);
+
 enum class Verdict { kSame, kWarning, kDifferent };
 
 struct PictureJudgement {

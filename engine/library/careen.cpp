@@ -6,17 +6,14 @@
 #include <span>
 #include <utility>
 
-#include "audit/audit.h"
 #include "core/error.h"
 #include "core/math/arithmetic.h"
-#include "core/system/file.h"
 #include "library/run_data.h"
 #include "library/translated.h"
 #include "physics/world/control.h"
 #include "physics/world/method.h"
 #include "question/moments.h"
-#include "scene/prepare.h"
-#include "scene/scene_reader.h"
+#include "runs/run_report.h"
 #include "trajectory/energy_samples.h"
 #include "trajectory/force_samples.h"
 #include "trajectory/pose_samples.h"
@@ -71,22 +68,27 @@ Control controlBy(double period, const Controller& controller, const World& worl
 }  // namespace
 
 Run::Run(const Scene& scene) {
-  const DefaultFloatEnvironment usual;
   data_ = translated(scene.name(), [&] {
-    const RunOverrides overrides{.method = scene.method_ ? methodNamed(*scene.method_) : std::nullopt,
-                                 .tolerance = scene.tolerance_,
-                                 .threads = scene.threads_};
-    RunSetup setup = prepare(parseScene(scene.text(), scene.name()), overrides).setup;
+    Simulation how;
+    how.overrides.method = scene.method_ ? methodNamed(*scene.method_) : std::nullopt;
+    how.overrides.dt = scene.step_;
+    how.overrides.tolerance = scene.tolerance_;
+    how.overrides.duration = scene.duration_;
+    how.overrides.allowOverlap = scene.allowsOverlap_;
+    how.overrides.threads = scene.threads_;
+    how.until = scene.until_;
     if (scene.controller_) {
-      setup.world.control = controlBy(scene.period_, scene.controller_, setup.world);
+      how.change = [&](World& world) { world.control = controlBy(scene.period_, scene.controller_, world); };
     }
-    return std::make_shared<Data>(record(setup));
+    return std::make_shared<Data>(simulateScene(SceneText{.text = scene.text(), .name = scene.name()}, how));
   });
 }
 
-Run Run::read(const std::filesystem::path& path) {
+Run Run::read(const std::filesystem::path& path, const std::filesystem::path& scene) {
+  const DefaultFloatEnvironment usual;
   return Run(translated(path.string(), [&] {
-    return std::make_shared<Data>(decodeTrajectory(readFile(path), path.string()));
+    const RunReading reading{.scene = scene.empty() ? std::nullopt : std::optional(scene)};
+    return std::make_shared<Data>(careen::Run{.source = path, .trajectory = readRun(path, reading)});
   }));
 }
 
@@ -175,9 +177,8 @@ std::vector<Force> Run::forces(const std::vector<double>& times) const {
 }
 
 Audit Run::audit() const {
-  const DefaultFloatEnvironment usual;
   return translated("", [&] {
-    const careen::Audit found = careen::audit(data_->trajectory, AuditDepth::kUsual);
+    const careen::Audit& found = data_->audited().audit;
     Audit audit;
     for (const AuditKindTraits& kind : kAuditKinds) {
       const careen::AuditFigure& figure = found.figure(kind.kind);
@@ -192,6 +193,28 @@ Audit Run::audit() const {
       audit.breaches.push_back(describe(breach, data_->trajectory));
     }
     return audit;
+  });
+}
+
+std::optional<ErrorEstimate> Run::estimateError() const {
+  const DefaultFloatEnvironment usual;
+  return translated("", [&]() -> std::optional<ErrorEstimate> {
+    if (data_->trajectory.given) {
+      return std::nullopt;
+    }
+    const std::optional<careen::ErrorEstimate> found = careen::estimateError(data_->trajectory);
+    return found ? std::optional(ErrorEstimate{.position = found->position,
+                                               .angle = found->angle,
+                                               .until = found->until,
+                                               .holds = found->holds})
+                 : std::nullopt;
+  });
+}
+
+std::string Run::report() const {
+  return translated("", [&] {
+    const careen::Run& run = data_->audited();
+    return runReportText(run, run.simulateSeconds + run.auditSeconds);
   });
 }
 

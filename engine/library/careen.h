@@ -139,7 +139,7 @@ class Scene {
  public:
   /// An empty one, that boxes and walls are added to.
   explicit Scene(double duration, Vector gravity = {0, 0, -9.81});
-  /// SceneError if the file cannot be read.
+  /// A scene file, or a model of MuJoCo (.xml), whose scene text() then is. SceneError if it cannot be read.
   static Scene read(const std::filesystem::path& path);
   /// `name` stands for the file in messages.
   static Scene parse(std::string text, std::string name = "scene");
@@ -154,6 +154,13 @@ class Scene {
   /// Method ("exact", "listing1" …) and tolerance [m] in place of those of the scene.
   Scene& method(const std::string& name);
   Scene& tolerance(double metres);
+  /// [s] Step, of methods that step, and duration in place of those of the scene.
+  Scene& step(double seconds);
+  Scene& duration(double seconds);
+  /// That boxes which overlap at the start are moved apart, in place of an error.
+  Scene& allowOverlap();
+  /// That the run ends when a statement becomes true, such as "rest" or "a touches b".
+  Scene& until(const std::string& statement);
   /// That share the steps of large crowds, 1 to 64; 1 unless said otherwise. Nothing but the time depends on
   /// it.
   Scene& threads(int count);
@@ -164,6 +171,8 @@ class Scene {
 
   std::string text() const;
   const std::string& name() const { return name_; }
+  /// What of a model of MuJoCo is ignored, left open or renamed, in words.
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   friend class Run;
@@ -175,8 +184,13 @@ class Scene {
   bool built_ = false;
   std::vector<std::string> boxes_;  // each as JSON
   std::vector<std::string> walls_;  // likewise
+  std::vector<std::string> notes_;
   std::optional<std::string> method_;
-  std::optional<double> tolerance_;
+  std::optional<double> tolerance_;  // [m]
+  std::optional<double> step_;       // [s]
+  std::optional<double> duration_;   // [s]
+  bool allowsOverlap_ = false;
+  std::string until_;
   int threads_ = 1;
   double period_ = 0;  // [s]
   Controller controller_;
@@ -257,6 +271,7 @@ struct Film {
   std::string frames = {};                      ///< such as "0-119,200:2"; empty: all
   std::optional<std::array<int, 2>> size = {};  ///< [px] width, height; none: the scene's
   bool alpha = false;                           ///< boxes and their shadows on nothing
+  bool sound = false;                           ///< sound.wav beside the frames, and in the video
   bool replace = false;                         ///< a film of something else that is in the folder
   std::optional<int> jobs = {};                 ///< processes; none: one for each core
 };
@@ -274,16 +289,43 @@ struct Difference {
   std::string firstImpact;                ///< that differs, in words; empty: none
 };
 
+/// How wrong a run is, estimated from others: one of half the step, or of a tenth of the tolerance.
+struct ErrorEstimate {
+  double position;              ///< [m] the largest of all boxes
+  double angle;                 ///< [rad] likewise
+  double until;                 ///< [s] up to here: the end, or where chaos takes over
+  std::optional<double> holds;  ///< [1] the part of scenes in which it is no larger, where that was measured
+};
+
+/// Labels of every pixel of a film's frames, as `careen truth` writes them.
+struct Labels {
+  std::filesystem::path folder;
+  std::string channels = "all";                 ///< or such as "depth,instance,flow"
+  std::string frames = {};                      ///< such as "0-119,200:2"; empty: all
+  std::optional<std::array<int, 2>> size = {};  ///< [px] width, height; none: the scene's
+  std::optional<int> jobs = {};                 ///< processes; none: one for each core
+};
+
+/// A page about a run, as `careen page` writes it, with its film.
+struct Page {
+  std::filesystem::path path;
+  std::string quality = "good";          ///< of the film: draft, good or best
+  std::array<int, 2> size = {640, 360};  ///< [px] of the film
+  bool sound = false;
+};
+
 /// A finished run. Copies share it.
 class Run {
  public:
   /// Simulates. SceneError if the scene is invalid, Error if the method cannot go on.
   explicit Run(const Scene& scene);
-  /// A file that save() or `careen simulate` wrote. SceneError if it cannot be read.
-  static Run read(const std::filesystem::path& path);
+  /// A file that save() or `careen simulate` wrote, or a table of poses (CSV, NPZ) of the boxes of a scene. A
+  /// trajectory takes camera, film, look and light from the scene, if there is one. SceneError if it cannot
+  /// be read.
+  static Run read(const std::filesystem::path& path, const std::filesystem::path& scene = {});
   void save(const std::filesystem::path& path) const;
 
-  double duration() const;                        ///< [s]
+  double duration() const;                        ///< [s] it ends earlier than its scene if Scene::until did
   const std::vector<std::string>& boxes() const;  ///< names, in the order of the scene
   /// State of a box, by its place in boxes(), at a time in [0, duration()] [s]; exact at every moment. Error
   /// outside.
@@ -297,6 +339,10 @@ class Run {
   std::vector<Force> forces(const std::vector<double>& times) const;
   std::vector<Force> forces(double time) const;
   Audit audit() const;
+  /// Simulates again, one to three times as long. None if that fails, or of a table of poses.
+  std::optional<ErrorEstimate> estimateError() const;
+  /// What was modelled, speed, error and audit as JSON: report.json of `careen simulate`.
+  std::string report() const;
   /// [s] All moments at which a statement becomes true, in order of time, such as "a touches b", "height(a) <
   /// 0.5" or "rest"; 0 among them if it is from the start. Error if it is no statement about the run.
   std::vector<double> when(const std::string& statement) const;
@@ -315,6 +361,9 @@ class Run {
   /// The film that `careen render` makes, frame by frame the same bytes. Its processes are forked: Error if
   /// this process has drawn a frame itself, whose GL they would not have.
   void film(const Film& film) const;
+  /// Likewise.
+  void page(const Page& page) const;
+  void labels(const Labels& labels) const;
 
  private:
   struct Data;
@@ -323,6 +372,32 @@ class Run {
 };
 
 inline Run simulate(const Scene& scene) { return Run(scene); }
+
+/// By how much two pictures, films or runs may differ.
+struct Allowed {
+  std::string threshold = "same-picture";  ///< exact, same-machine, same-picture or other-renderer
+  std::vector<std::string> limits = {};    ///< in place of the threshold's, such as "failpercent=5"
+  /// [1] Of runs: how far apart boxes may be, in their half diagonals or radians; 0: bit for bit. Of films:
+  /// none, if another motion does not count where the pictures are the same.
+  std::optional<double> motion = 0;
+  std::optional<double> until = {};       ///< [s] runs are compared up to here
+  std::vector<std::string> ignored = {};  ///< of pictures: "x,y,width,height" [px], or a mask's file
+};
+
+/// What `careen compare` finds.
+struct Comparison {
+  bool same;                           ///< as far as is allowed
+  std::string headline;                ///< in a sentence
+  std::vector<std::string> different;  ///< frames that differ, by name
+  std::string report;                  ///< all of it as JSON: its report.json
+};
+
+/// Compares two pictures, two folders of frames, or two runs, of which a table of poses is one: of this
+/// scene, or else of that of the other run. `page`: a folder for a report with pictures. Error if they are
+/// not of one kind.
+Comparison compare(const std::filesystem::path& expected, const std::filesystem::path& actual,
+                   const Allowed& allowed = {}, const std::filesystem::path& page = {},
+                   const std::filesystem::path& scene = {});
 
 /// The table of a sweep: one row for each run of a family.
 struct SweepTable {

@@ -1,8 +1,10 @@
 // Runs beside runs, as files of other programs, and by the thousand.
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "compare/report.h"
 #include "compare/run_difference.h"
 #include "core/error.h"
 #include "core/math/arithmetic.h"
@@ -12,6 +14,7 @@
 #include "library/careen.h"
 #include "library/run_data.h"
 #include "library/translated.h"
+#include "runs/compare_files.h"
 #include "sweep/sweep.h"
 
 namespace careen::v1 {
@@ -51,6 +54,46 @@ Difference Run::differenceFrom(const Run& other) const {
                       .time = found.worst.time,
                       .horizon = found.horizon,
                       .firstImpact = found.firstImpact ? found.firstImpact->what : ""};
+  });
+}
+
+Comparison compare(const std::filesystem::path& expected, const std::filesystem::path& actual,
+                   const Allowed& allowed, const std::filesystem::path& page,
+                   const std::filesystem::path& scene) {
+  const DefaultFloatEnvironment usual;
+  return translated("", [&] {
+    ComparisonSettings settings;
+    settings.program = version();
+    settings.toleranceName = allowed.threshold;
+    settings.tolerance = toleranceOf(allowed.threshold);
+    for (const std::string& limit : allowed.limits) {
+      settings.toleranceName += ", " + setLimit(settings.tolerance, limit);
+    }
+    settings.motionCounts = allowed.motion.has_value();
+    settings.motionTolerance = allowed.motion.value_or(0);
+    settings.until = allowed.until.value_or(settings.until);
+    for (const std::string& region : allowed.ignored) {
+      settings.ignored.add(region);
+    }
+    settings.threads = usableCores();
+    if (!page.empty()) {
+      refuseReportIn(page, expected, actual);
+    }
+    const careen::Comparison found = compareFiles(
+        expected, actual, settings, {.scene = scene.empty() ? std::nullopt : std::optional(scene)});
+    if (!page.empty()) {
+      writeReport(page, found);
+    }
+    Comparison comparison{.same = found.verdict != Verdict::kDifferent,
+                          .headline = found.headline,
+                          .different = {},
+                          .report = reportJson(found) + "\n"};
+    for (const FrameComparison& frame : found.frames) {
+      if (frame.verdict == Verdict::kDifferent) {
+        comparison.different.push_back(frame.name);
+      }
+    }
+    return comparison;
   });
 }
 

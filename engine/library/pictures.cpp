@@ -1,22 +1,29 @@
 // The pictures and films of a run.
+#include <algorithm>
 #include <mutex>
 #include <utility>
 
 #include "core/error.h"
 #include "core/math/arithmetic.h"
+#include "core/system/file.h"
+#include "core/system/processor.h"
+#include "core/system/shared_work.h"
+#include "film/frame_range.h"
 #include "library/careen.h"
 #include "library/run_data.h"
 #include "library/translated.h"
+#include "truth/truth_film.h"
+#include "truth/truth_frame.h"
 #ifdef CAREEN_RENDER
-#include "film/frame_range.h"
 #include "image/video_format.h"
+#include "page/run_page.h"
 #include "render/film/film.h"
 #include "render/film/film_pictures.h"
+#include "sound/sound_track.h"
 #endif
 
 namespace careen::v1 {
 
-#ifdef CAREEN_RENDER
 namespace {
 
 // Of the process: GL is current to one thread at a time, and the size of a run's pictures stands in the run.
@@ -54,6 +61,7 @@ class ShownAs {
 
 }  // namespace
 
+#ifdef CAREEN_RENDER
 std::vector<Image> Run::frames(const std::vector<double>& filmTimes,
                                std::optional<std::array<int, 2>> size) const {
   const std::scoped_lock alone(drawing());
@@ -92,12 +100,36 @@ void Run::film(const Film& film) const {
     if (!film.video.empty()) {
       settings.video =
           VideoSettings{.path = film.video, .quality = videoQualityNamed(film.quality), .alpha = film.alpha};
-      checkVideo(*settings.video);
     }
     settings.there = film.replace ? FilmThere::kReplace : FilmThere::kDrawAgain;
     settings.jobs = film.jobs;
     settings.program = version();
+    const std::string sound = film.sound ? wavOf(soundTrackOf(run, settings.frames, Pitch::kSlows)) : "";
+    if (settings.video) {
+      settings.video->sound = sound;
+      checkVideo(*settings.video);
+    }
     renderFilm(run, settings);
+    if (film.sound) {
+      writeFile(film.folder / "sound.wav", sound);
+    }
+  });
+}
+
+void Run::page(const Page& page) const {
+  const std::scoped_lock alone(drawing());
+  const DefaultFloatEnvironment usual;
+  translated("", [&] {
+    const careen::Run& run = data_->audited();
+    const ShownAs shown(data_->trajectory.stage.picture, page.size);
+    FilmSettings settings;
+    settings.program = version();
+    settings.video = VideoSettings{.path = "film.mp4", .quality = videoQualityNamed(page.quality)};
+    if (page.sound) {
+      settings.video->sound = wavOf(soundTrackOf(run.trajectory, {}, Pitch::kSlows));
+    }
+    const PageFilm film{.bytes = filmAsMp4(run.trajectory, settings), .type = "video/mp4"};
+    writeFile(page.path, runPage(run.trajectory, run.audit, film, version()));
   });
 }
 #else
@@ -109,7 +141,27 @@ std::vector<Image> Run::frames(const std::vector<double>& /*filmTimes*/,
 void Run::film(const Film& /*film*/) const {
   throw Error("this build of careen draws nothing (CAREEN_RENDER=OFF)");
 }
+
+void Run::page(const Page& /*page*/) const {
+  throw Error("this build of careen draws nothing (CAREEN_RENDER=OFF)");
+}
 #endif
+
+void Run::labels(const Labels& labels) const {
+  const std::scoped_lock alone(drawing());
+  const DefaultFloatEnvironment usual;
+  translated("", [&] {
+    Trajectory& run = data_->trajectory;
+    const ShownAs shown(run.stage.picture, labels.size);
+    const TruthSettings settings{
+        .folder = labels.folder,
+        .frames = labels.frames.empty() ? std::vector<FrameRange>() : parseFrameRanges(labels.frames),
+        .channels = channelsNamed(labels.channels),
+        .jobs = std::clamp(labels.jobs.value_or(usableCores()), 1, kMostProcesses),
+        .program = version()};
+    writeTruth(run, settings);
+  });
+}
 
 Image Run::frame(double filmTime, std::optional<std::array<int, 2>> size) const {
   return frames({filmTime}, size).front();

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "library/careen.h"
-#include "trajectory/trajectory.h"
+#include "runs/run.h"
 
 namespace careen::v1 {
 
@@ -13,7 +14,7 @@ inline Vector vectorOf(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// What copies of a run share.
 struct Run::Data {
-  explicit Data(Trajectory run) : trajectory(std::move(run)) {
+  explicit Data(careen::Run of) : run(std::move(of)), trajectory(run.trajectory) {
     for (const Body& body : trajectory.world.bodies) {
       names.push_back(body.name);
     }
@@ -29,7 +30,15 @@ struct Run::Data {
     }
   }
 
-  Trajectory trajectory;
+  /// Audits it, the first time.
+  const careen::Run& audited() {
+    std::call_once(once, [this] { auditRun(run, AuditDepth::kUsual, {}); });
+    return run;
+  }
+
+  careen::Run run;
+  Trajectory& trajectory;
+  std::once_flag once;
   std::vector<std::string> names;
   std::vector<Impact> impacts;
 };

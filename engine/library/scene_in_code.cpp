@@ -9,6 +9,7 @@
 #include "physics/world/control.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
+#include "runs/source.h"
 
 namespace careen::v1 {
 namespace {
@@ -76,7 +77,14 @@ Scene::Scene(double duration, Vector gravity) : name_("scene"), built_(true) {
 }
 
 Scene Scene::read(const std::filesystem::path& path) {
-  return {path.string(), translated(path.string(), [&] { return readFile(path); })};
+  return translated(path.string(), [&] {
+    std::vector<std::string> notes;
+    SceneText read =
+        sceneTextOf(path, readFile(path), [&](const std::string& note) { notes.push_back(note); });
+    Scene scene(std::move(read.name), std::move(read.text));
+    scene.notes_ = std::move(notes);
+    return scene;
+  });
 }
 
 Scene Scene::parse(std::string text, std::string name) { return {std::move(name), std::move(text)}; }
@@ -165,6 +173,26 @@ Scene& Scene::tolerance(double metres) {
         0);
   }
   tolerance_ = metres;
+  return *this;
+}
+
+Scene& Scene::step(double seconds) {
+  step_ = seconds;
+  return *this;
+}
+
+Scene& Scene::duration(double seconds) {
+  duration_ = seconds;
+  return *this;
+}
+
+Scene& Scene::allowOverlap() {
+  allowsOverlap_ = true;
+  return *this;
+}
+
+Scene& Scene::until(const std::string& statement) {
+  until_ = statement;
   return *this;
 }
 

@@ -57,6 +57,22 @@ SoundTrack soundTrackOf(const Trajectory& run, double from, double to, Pitch pit
   return track;
 }
 
+SoundTrack soundTrackOf(const Trajectory& run, std::span<const FrameRange> ranges, Pitch pitch,
+                        const std::stop_token& stop) {
+  const FrameRate& rate = run.stage.picture.rate;
+  const double duration = run.stage.timeMap.within(run.settings.duration).duration();
+  const std::vector<std::int64_t> frames = framesOf(ranges, rate.frameCount(duration));
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    if (frames[k] != frames[k - 1] + 1) {
+      throw InputError("found frame " + std::to_string(frames[k]) + " after frame " +
+                       std::to_string(frames[k - 1]) + ", expected frames that follow each other");
+    }
+  }
+  const double from = frames.empty() ? 0 : rate.frameTime(frames.front());
+  const double to = frames.empty() ? 0 : rate.frameTime(frames.back() + 1);
+  return soundTrackOf(run, from, to, pitch, stop);
+}
+
 std::string wavOf(const SoundTrack& track) {
   constexpr std::uint32_t kBytes = 2;  // of a sample
   const std::size_t size = kBytes * track.samples.size();

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "film/frame_range.h"
 #include "sound/ringing.h"
 #include "trajectory/trajectory.h"
 
@@ -25,6 +26,11 @@ inline constexpr int kLoudestSample = 29204;
 /// not how loud it is. The same bits everywhere. InputError if the run has no impacts to tell, as a table of
 /// poses.
 SoundTrack soundTrackOf(const Trajectory& run, double from, double to, Pitch pitch,
+                        const std::stop_token& stop = {});
+
+/// That of these frames of its film; all if there are no ranges. InputError, too, if they do not follow each
+/// other.
+SoundTrack soundTrackOf(const Trajectory& run, std::span<const FrameRange> frames, Pitch pitch,
                         const std::stop_token& stop = {});
 
 /// As a WAV file (RIFF, PCM, 16 bits).

@@ -13,9 +13,9 @@
 #include "scene/plan.h"
 #include "scene/scene_reader.h"
 #include "scene/starts.h"
-#include "study/difference.h"
-#include "study/error_estimate.h"
-#include "study/sampled_states.h"
+#include "runs/difference.h"
+#include "runs/error_estimate.h"
+#include "runs/sampled_states.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {

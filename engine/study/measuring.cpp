@@ -12,7 +12,7 @@
 #include "physics/start/overlap.h"
 #include "physics/world/diagnostics.h"
 #include "study/deadline.h"
-#include "study/difference.h"
+#include "runs/difference.h"
 
 namespace careen {
 namespace {

@@ -3,7 +3,7 @@
 #include "physics/simulate.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
-#include "study/sampled_states.h"
+#include "runs/sampled_states.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {

@@ -189,7 +189,7 @@ TEST_F(Render, namesOfVideosAndOtherPicturesAreNoFolders) {
                                              {"film.WebM"},
                                              {"film.png"},
                                              {"picture.jpg", "--still", "0.1"},
-                                             {"picture.TIFF", "--strobe", "0:0.2:0.1"}}) {
+                                             {"picture.TIFF", "--still", "0:0.2:0.1"}}) {
     std::vector<std::string> arguments = {"render", "scene.json", "--out"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const Ended ended = careen(arguments);
@@ -311,7 +311,7 @@ class RenderWithout : public Render {
 };
 
 TEST_F(RenderWithout, anyLackTheListSaysSo) {
-  const std::vector<std::string> list = {"render", "--list-rendering-backends"};
+  const std::vector<std::string> list = {"render", "--rendering-backend", "list"};
   Ended ended = careen(list);
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_TRUE(ended.out.starts_with(kHasOsMesa ? "auto: osmesa\nosmesa: available, llvmpipe"

@@ -48,14 +48,14 @@ TEST_F(Still, ofWhatRestsIsThatOfManyMoments) {
                { "half_extents": [0.2, 0.2, 0.2], "mass": 1, "position": [0.25, 0, 0.2] } ],
     "film": { "size": [160, 90], "fps": 10 } })");
   ASSERT_EQ(render({"--still", "0", "--out", "still.png"}).exitCode, 0);
-  ASSERT_EQ(render({"--strobe", "0:0.5:0.25", "--out", "strobe.png"}).exitCode, 0);
+  ASSERT_EQ(render({"--still", "0:0.5:0.25", "--out", "strobe.png"}).exitCode, 0);
   EXPECT_EQ(textOf(folder_ / "strobe.png"), textOf(folder_ / "still.png"));
 }
 
 TEST_F(Still, hasAPlaceOfItsOwn) {
   ASSERT_EQ(render({"--still", "0.3"}).exitCode, 0);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out/scene-still.png"));
-  ASSERT_EQ(render({"--strobe", "0:1:0.25"}).exitCode, 0);
+  ASSERT_EQ(render({"--still", "0:1:0.25"}).exitCode, 0);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out/scene-strobe.png"));
 }
 
@@ -89,11 +89,11 @@ TEST_F(Still, badOptionsWriteNothing) {
        std::vector<std::vector<std::string>>{{"--still", "1.5"},
                                              {"--still", "-1"},
                                              {"--still", "x"},
-                                             {"--strobe", "0:2:0.1"},
-                                             {"--strobe", "0:1"},
-                                             {"--strobe", "0:1:0.1", "--still", "0"},
-                                             {"--strobe", "0:1:0.1", "--ghost", "run.careen"},
-                                             {"--strobe", "0:1:0.1", "--shutter", "180:8"},
+                                             {"--still", "0:2:0.1"},
+                                             {"--still", "0:1"},
+                                             {"--still", "0:1:0.1", "--plot", "energy"},
+                                             {"--still", "0:1:0.1", "--ghost", "run.careen"},
+                                             {"--still", "0:1:0.1", "--shutter", "180:8"},
                                              {"--still", "0", "--frames", "0-1"},
                                              {"--still", "0", "--video", "film.mp4"},
                                              {"--still", "0", "--resume"},

@@ -89,5 +89,19 @@ TEST(Tolerance, meansWhatIdiffMeans) {
             (std::vector<std::string>{"3 % of the pixels differ by more than 0; at most 0.5 % may"}));
 }
 
+TEST(SetLimit, setsTheNumberOfThatName) {
+  Tolerance tolerance = toleranceOf("exact");
+  EXPECT_EQ(setLimit(tolerance, "failpercent=5"), "failpercent=5");
+  EXPECT_EQ(tolerance.failPercent, 5);
+  EXPECT_EQ(setLimit(tolerance, "hardfail=2.5"), "hardfail=2.5");
+  EXPECT_EQ(tolerance.hardFail, 2.5);
+  EXPECT_EQ(setLimit(tolerance, "windowssim=0.3"), "windowssim=0.3");
+  EXPECT_EQ(tolerance.leastWindowSsim, 0.3);
+  for (const char* const text :
+       {"fail", "fail=", "fail=-1", "fail=1.1", "fail=nan", "fail=x", "heat=1", ""}) {
+    EXPECT_THROW(setLimit(tolerance, text), InputError) << text;
+  }
+}
+
 }  // namespace
 }  // namespace careen

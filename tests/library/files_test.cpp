@@ -1,10 +1,13 @@
 // Files and tables of the library beside the program's: the same bytes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "image/png.h"
 #include "library/careen.h"
 #include "support/process.h"
 
@@ -77,6 +80,54 @@ TEST_F(LibraryFiles, sweepsMakeTheProgramsTable) {
   EXPECT_EQ(textOf(table.path), textOf(folder_ / "theirs/table.csv"));
   EXPECT_THROW(sweep(folder_ / "family.json", folder_ / "other", 5, 4), Error);
   EXPECT_THROW(sweep(folder_ / "none.json", folder_ / "other", 0, 4), Error);
+}
+
+// A black picture, and one of which a part is grey: 1 % of the pixels, off by .2.
+TEST_F(LibraryFiles, comparisonsAreThoseOfTheProgram) {
+  Picture picture{.width = 100, .height = 50, .rgb = std::vector<std::uint8_t>(100 * 50 * 3)};
+  writePng(folder_ / "black.png", picture);
+  std::fill_n(picture.rgb.begin(), 50 * 3, std::uint8_t{51});
+  writePng(folder_ / "grey.png", picture);
+  const std::string black = folder_ / "black.png";
+  const std::string grey = folder_ / "grey.png";
+  EXPECT_TRUE(compare(black, black).same);
+  const Comparison differs = compare(black, grey, {}, folder_ / "own");
+  EXPECT_FALSE(differs.same);
+  EXPECT_EQ(differs.different, std::vector<std::string>{"grey.png"});
+  EXPECT_EQ(program({"compare", black, grey, "-o", "theirs"}).exitCode, 1);
+  EXPECT_EQ(differs.report, textOf(folder_ / "theirs/report.json"));
+  EXPECT_EQ(textOf(folder_ / "own/index.html"), textOf(folder_ / "theirs/index.html"));
+  const Allowed allowed{.threshold = "exact", .limits = {"fail=0.1", "failpercent=1"}};
+  const Comparison same = compare(black, grey, allowed, folder_ / "own");
+  EXPECT_TRUE(same.same) << same.headline;
+  EXPECT_EQ(program({"compare", black, grey, "-o", "theirs", "--threshold", "exact", "--allow",
+                     "fail=0.1,failpercent=1"})
+                .exitCode,
+            0);
+  EXPECT_EQ(same.report, textOf(folder_ / "theirs/report.json"));
+  EXPECT_TRUE(compare(black, grey, {.ignored = {"0,0,50,1"}}).same);
+  EXPECT_FALSE(compare(black, grey, {.ignored = {"0,0,49,1"}}).same);
+  EXPECT_THROW(compare(black, grey, {.limits = {"fall=1"}}), Error);
+  EXPECT_THROW(compare(black, grey, {.threshold = "nearly"}), Error);
+  EXPECT_THROW(compare(black, folder_.path()), Error);
+  EXPECT_THROW(compare(black, folder_ / "none.png"), Error);
+}
+
+TEST_F(LibraryFiles, runsAreComparedUpToATolerance) {
+  const auto savedFrom = [&](const std::string& x) {
+    const std::string path = folder_ / (x + ".careen");
+    simulate(Scene::parse(R"({"careen": 1, "duration": 1, "boxes": [{"half_extents": [1, 1, 1], "mass": 1,
+                              "position": [)" +
+                          x + "]}]}"))
+        .save(path);
+    return path;
+  };
+  const std::string one = savedFrom("0, 0, 9");
+  const std::string other = savedFrom("0, 0.003, 9");
+  EXPECT_TRUE(compare(one, one).same);
+  EXPECT_FALSE(compare(one, other).same);
+  EXPECT_TRUE(compare(one, other, {.motion = 0.0018}).same) << "of half a diagonal, 1.732 m: 0.00173";
+  EXPECT_FALSE(compare(one, other, {.motion = 0.0017}).same);
 }
 
 }  // namespace

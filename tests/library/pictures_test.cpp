@@ -46,6 +46,44 @@ TEST(LibraryFilm, isThatOfTheProgram) {
   EXPECT_THROW(run.film({.folder = folder / "x", .frames = "a-b"}), Error);
 }
 
+TEST(LibraryFilm, pagesAndLabelsAreThoseOfTheProgram) {
+  const TemporaryFolder folder;
+  const std::filesystem::path scene = std::filesystem::path(CAREEN_SOURCE_DIR) / "assets/scenes/zeno.json";
+  const v1::Run run = simulate(Scene::read(scene));
+  run.page({.path = folder / "own.html", .quality = "draft", .size = {64, 36}, .sound = true});
+  run.labels({.folder = folder / "own",
+              .channels = "depth,instance",
+              .frames = "0-2:2",
+              .size = std::array{64, 36}});
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"page", scene, "-o", "theirs.html", "--quality", "draft", "--size", "64x36",
+                                 "--sound"},
+        {"truth", scene, "-o", "theirs", "--channels", "depth,instance", "--frames", "0-2:2", "--size",
+         "64x36"}}) {
+    std::vector<std::string> command = arguments;
+    command.insert(command.begin(), CAREEN_BINARY);
+    const Ended ended = Process(command, folder.path()).wait();
+    ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  }
+  EXPECT_TRUE(textOf(folder / "own.html") == textOf(folder / "theirs.html"));
+  for (const char* const file : {"000000.npz", "000002.npz", "truth.json"}) {
+    EXPECT_TRUE(textOf(folder / "own" / file) == textOf(folder / "theirs" / file)) << file;
+  }
+  EXPECT_THROW(run.page({.path = folder / "none/page.html", .size = {64, 36}}), Error);
+  EXPECT_THROW(run.page({.path = folder / "x.html", .quality = "ultra"}), Error);
+  EXPECT_THROW(run.labels({.folder = folder / "x", .channels = "smell"}), Error);
+  EXPECT_THROW(run.labels({.folder = folder / "x", .frames = "9999"}), Error);
+  run.film(
+      {.folder = folder / "heard", .video = folder / "heard.mp4", .size = std::array{64, 36}, .sound = true});
+  const Ended heard = Process({CAREEN_BINARY, "render", scene, "-o", "film", "--video", "film.mp4", "--size",
+                               "64x36", "--sound"},
+                              folder.path())
+                          .wait();
+  ASSERT_EQ(heard.exitCode, 0) << heard.err;
+  EXPECT_TRUE(textOf(folder / "heard/sound.wav") == textOf(folder / "film/sound.wav"));
+  EXPECT_TRUE(textOf(folder / "heard.mp4") == textOf(folder / "film.mp4"));
+}
+
 TEST(LibraryPictures, drawsTheBytesOfTheProgram) {
   const TemporaryFolder folder;
   const v1::Run run = simulate(Scene::read(kFilmed));

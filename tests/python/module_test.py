@@ -138,13 +138,17 @@ class Module(unittest.TestCase):
 import careen, sys
 run = careen.simulate(sys.argv[1])
 run.film("own", frames="0-4:2", size=(64, 36), alpha=True)
+run.labels("own-labels", channels="depth", frames="1", size=(64, 36))
+run.page("own.html", quality="draft", size=(64, 36))
 run.export("own.csv", 0.1)
 """  # in a process of its own: after frame() there is none
         scene = SCENES / "careen.json"
         subprocess.run([sys.executable, "-c", code, scene], cwd=self.folder, check=True)
         program(self.folder, "render", scene, "--alpha", "--frames", "0-4:2", "--size", "64x36", "--out", "theirs")
         program(self.folder, "export", scene, "-o", "theirs.csv", "--every", "0.1")
-        for name in ("{}.csv", "{}/000000.png", "{}/000002.png", "{}/000004.png"):
+        program(self.folder, "truth", scene, "--channels", "depth", "--frames", "1", "--size", "64x36", "-o", "theirs-labels")
+        program(self.folder, "page", scene, "--quality", "draft", "--size", "64x36", "-o", "theirs.html")
+        for name in ("{}.csv", "{}/000000.png", "{}/000002.png", "{}/000004.png", "{}-labels/000001.npz", "{}.html"):
             self.assertEqual((self.folder / name.format("own")).read_bytes(),
                              (self.folder / name.format("theirs")).read_bytes(), name)
         family = self.folder / "family.json"
@@ -156,6 +160,32 @@ run.export("own.csv", 0.1)
         run = careen.simulate(scene)
         self.assertTrue(run.difference_from(careen.simulate(scene))["same"])
         self.assertIsNotNone(run.difference_from(careen.simulate(scene, method="listing1"))["from"])
+
+    def test_runs_are_made_and_compared_as_by_the_program(self):
+        scene = SCENES / "zeno.json"
+        ended = careen.simulate(scene, until="rest")
+        self.assertLess(ended.duration, careen.simulate(scene).duration)
+        self.assertEqual(careen.simulate(scene, duration=0.5).duration, 0.5)
+        self.assertRaises(careen.Error, careen.simulate, scene, dt=0.01)
+        stepped = careen.simulate(scene, method="listing1", dt=0.01)
+        self.assertEqual(stepped.report["dt"], 0.01)
+        self.assertEqual(ended.report["until"]["question"], "rest")
+        self.assertLess(ended.estimate_error()["position"], 1e-6)
+        ended.save(self.folder / "ended.careen")
+        stepped.save(self.folder / "stepped.careen")
+        self.assertTrue(careen.compare(self.folder / "ended.careen", self.folder / "ended.careen")["same"])
+        found = careen.compare(self.folder / "ended.careen", self.folder / "stepped.careen", page=self.folder / "page")
+        self.assertFalse(found["same"])
+        self.assertEqual(found["report"]["headline"], found["headline"])
+        self.assertTrue((self.folder / "page/index.html").exists())
+        careen.simulate(scene, method="listing1", dt=0.005).save(self.folder / "finer.careen")
+        for far, same in ((0.5, True), (1e-9, False)):
+            found = careen.compare(self.folder / "stepped.careen", self.folder / "finer.careen", motion=far, until=0.2)
+            self.assertEqual(found["same"], same, found["headline"])
+        ended.export(self.folder / "poses.csv", 0.1)
+        self.assertRaises(careen.Error, careen.read_run, self.folder / "poses.csv")
+        table = careen.read_run(self.folder / "poses.csv", scene)
+        numpy.testing.assert_array_equal(table.states(0.1)["position"], ended.states(0.1)["position"])
 
     def test_stubs_name_all_that_there_is(self):
         stubs = ast.parse((pathlib.Path(STUBS) / "__init__.pyi").read_text())

@@ -14,6 +14,7 @@
 #include "core/hash.h"
 #include "core/system/file.h"
 #include "core/system/processor.h"
+#include "core/system/scratch_folder.h"
 #include "film/folder.h"
 #include "film/manifest.h"
 #include "image/picture_ring.h"
@@ -326,6 +327,17 @@ FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, cons
   figures.wallSeconds = wallSeconds() - wallBegun;
   figures.coreSeconds = coreSeconds() - coreBegun + coreOfWorkers;
   return figures;
+}
+
+std::string filmAsMp4(const Trajectory& run, FilmSettings settings, const FilmCallback& progress,
+                      const std::stop_token& stop) {
+  const ScratchFolder scratch;
+  settings.folder = scratch.path() / "frames";
+  VideoSettings video = settings.video.value_or(VideoSettings());
+  video.path = scratch.path() / "film.mp4";
+  settings.video = std::move(video);
+  renderFilm(run, settings, progress, stop);
+  return readFile(settings.video->path);
 }
 
 }  // namespace careen

@@ -95,4 +95,9 @@ void refuseFilmOfAnotherScene(const FilmSettings& settings, std::string_view sce
 FilmFigures renderFilm(const Trajectory& run, const FilmSettings& settings, const FilmCallback& progress = {},
                        const std::stop_token& stop = {});
 
+/// The film as the bytes of an MP4 file, of the quality and with the sound in the settings' video; its frames
+/// are in a folder that is gone afterwards. Throws as renderFilm().
+std::string filmAsMp4(const Trajectory& run, FilmSettings settings, const FilmCallback& progress = {},
+                      const std::stop_token& stop = {});
+
 }  // namespace careen

@@ -85,7 +85,7 @@ bool average(const std::uint8_t* from, std::size_t times, std::size_t rowPixels,
 
 [[noreturn]] void failToDraw(const char* how, const std::string& renderer) {
   throw MachineError(std::string("the frame came out ") + how + ": " + renderer +
-                     " does not draw what it should; another may: --list-rendering-backends, apt install " +
+                     " does not draw what it should; another may: careen render --rendering-backend list, apt install " +
                      std::string(drawingPackages()));
 }
 

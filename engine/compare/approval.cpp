@@ -1,15 +1,15 @@
-#include "approval.h"
+#include "compare/approval.h"
 
 #include <algorithm>
-#include <iostream>
 #include <set>
 #include <string>
 #include <system_error>
+#include <utility>
 
-#include "core/characters.h"
+#include "compare/films.h"
+#include "core/error.h"
 #include "core/system/file.h"
 #include "core/system/folder_lock.h"
-#include "film/folder.h"
 
 namespace careen {
 namespace {
@@ -20,18 +20,10 @@ fs::path placeToReplace(const Reference& reference) {
   const fs::path place = fs::canonical(reference.folder);
   const fs::path here = fs::current_path();
   if (std::mismatch(place.begin(), place.end(), here.begin(), here.end()).first == place.end()) {
-    throw InputError("--approve: found the current folder in --ref, " + reference.folder.string() +
+    throw InputError("found the current folder in --ref, " + reference.folder.string() +
                      ", which is replaced; expected to be run from another folder");
   }
   return place;
-}
-
-std::set<std::string> namesOf(const FilmManifest& film) {
-  std::set<std::string> names;
-  for (const std::int64_t frame : film.frames) {
-    names.insert(frameFileName(frame));
-  }
-  return names;
 }
 
 bool isLeftover(const std::string& name) {
@@ -58,7 +50,7 @@ Approval::Approval(const Reference& reference)
     : reference_(reference), place_(placeToReplace(reference)), film_(place_) {}
 
 void Approval::takeAlong() const {
-  const std::set<std::string> replaced = namesOf(reference_.film);
+  const std::set<std::string> replaced = frameNamesOf(reference_.film);
   for (const fs::directory_entry& entry : fs::directory_iterator(place_)) {
     const std::string name = entry.path().filename().string();
     if (!replaced.contains(name) && !isLeftover(name) && !fs::exists(fs::symlink_status(folder() / name))) {
@@ -68,26 +60,17 @@ void Approval::takeAlong() const {
   fs::permissions(folder(), fs::status(place_).permissions());
 }
 
-ExitCode Approval::approve(CompareOptions options, bool logsFrames, const std::stop_token& stop) {
+Comparison Approval::approve(ComparisonSettings settings, const ComparisonTold& tell,
+                             const std::stop_token& stop) {
   const FolderLock lock(place_);
-  options.only = namesOf(reference_.film);
-  const Comparison comparison = compare(place_, folder(), options.settings(), {}, stop);
-  tell(comparison, logsFrames);
-  std::ostream& out = logsFrames ? std::cerr : std::cout;
-  const auto changed =
-      std::count_if(comparison.frames.begin(), comparison.frames.end(),
-                    [](const FrameComparison& frame) { return frame.verdict == Verdict::kDifferent; });
-  const bool replaces = comparison.verdict == Verdict::kDifferent;
-  if (replaces) {
+  settings.only = frameNamesOf(reference_.film);
+  Comparison comparison = compareFilms(place_, folder(), settings, stop);
+  tell(comparison);
+  if (comparison.verdict == Verdict::kDifferent) {
     takeAlong();
     film_.replace();
   }
-  out << "approved     " << changed << " of " << comparison.frames.size() << " frames changed"
-      << (!replaces      ? ", the film stays as it was: "
-          : changed == 0 ? ", only the motion did: "
-                         : ": ")
-      << printableName(place_.string()) << '\n';
-  return ExitCode::kDone;
+  return comparison;
 }
 
 }  // namespace careen

@@ -1,4 +1,4 @@
-#include "study/difference.h"
+#include "runs/difference.h"
 
 #include <gtest/gtest.h>
 

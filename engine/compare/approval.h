@@ -3,14 +3,12 @@
 #include <filesystem>
 #include <stop_token>
 
-#include "compare.h"
-#include "core/error.h"
+#include "compare/reference.h"
 #include "core/system/atomic_folder.h"
-#include "reference.h"
 
 namespace careen {
 
-/// `render --approve`: a film that is drawn beside the reference, and takes its place whole if it differs.
+/// A film that is drawn beside the reference, and takes its place whole if it differs.
 class Approval {
  public:
   /// InputError if this process works in the reference's folder, which would be gone.
@@ -18,9 +16,12 @@ class Approval {
 
   /// Where the new film is drawn.
   const std::filesystem::path& folder() const { return film_.path(); }
-  /// Compares the two, prints the result, and puts the new film in place of the reference unless they are the
-  /// same. What else is in the reference's folder stays there.
-  ExitCode approve(CompareOptions options, bool logsFrames, const std::stop_token& stop);
+  /// Where it will be.
+  const std::filesystem::path& place() const { return place_; }
+  /// Compares the two, and puts the new film in place of the reference if they differ. What else is in the
+  /// reference's folder stays there.
+  Comparison approve(ComparisonSettings settings, const ComparisonTold& tell,
+                     const std::stop_token& stop = {});
 
  private:
   void takeAlong() const;

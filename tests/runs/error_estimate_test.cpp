@@ -1,4 +1,4 @@
-#include "study/error_estimate.h"
+#include "runs/error_estimate.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "physics/world/method.h"
-#include "study/difference.h"
+#include "runs/difference.h"
 #include "support/exact_runs.h"
 #include "support/quad_room.h"
 

@@ -1,4 +1,4 @@
-#include "study/sampled_states.h"
+#include "runs/sampled_states.h"
 
 #include <limits>
 #include <utility>

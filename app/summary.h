@@ -1,19 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
 #include <ostream>
 #include <string>
 
 #include "physics/world/run_settings.h"
-#include "run.h"
+#include "runs/run.h"
 
 namespace careen {
-
-/// report.json of a run (keys as in the contract); the renderer adds its own part.
-nlohmann::ordered_json runReport(const Run& run, double wallSeconds);
-/// Without that part, as text.
-std::string runReportText(const Run& run, double wallSeconds);
 
 /// In words: what moved, its error and speed in a few lines; or, verbose, the same as in the report.
 void printSummary(std::ostream& out, const Run& run, double wallSeconds, bool verbose);

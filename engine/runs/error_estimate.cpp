@@ -1,4 +1,4 @@
-#include "study/error_estimate.h"
+#include "runs/error_estimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include "physics/simulate.h"
 #include "physics/world/method.h"
 #include "physics/world/run_settings.h"
-#include "study/difference.h"
-#include "study/sampled_states.h"
+#include "runs/difference.h"
+#include "runs/sampled_states.h"
 
 namespace careen {
 namespace {
@@ -45,14 +45,14 @@ bool hasContactSteps(const Trajectory& run) {
 }
 
 /// Other runs of the same scene, and what their difference says.
-struct Comparison {
+struct OtherSettings {
   std::string by;
   std::vector<RunSettings> others;
   double margin = 1;  // the error over the largest difference
   std::optional<double> holds = {};
 };
 
-Comparison comparisonFor(const Trajectory& run) {
+OtherSettings otherSettingsFor(const Trajectory& run) {
   const int order = traitsOf(run.settings.method).order;
   if (order > 0) {
     RunSettings finer = run.settings;
@@ -98,10 +98,10 @@ std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::sto
                                            const RunCallback& progress) {
   const World& world = run.world;
   const World start = traitsOf(run.settings.method).order > 0 ? world : oneRoundingAway(world);
-  const Comparison comparison = comparisonFor(run);
+  const OtherSettings other = otherSettingsFor(run);
   const std::vector<double> times = sampleTimes(run.settings.duration);
   std::vector<std::vector<std::vector<BodyState>>> others;  // of each run, by time and body
-  for (const RunSettings& settings : comparison.others) {
+  for (const RunSettings& settings : other.others) {
     SampledStates again(world, times);
     try {
       simulate(start, settings, again, stop, progress);
@@ -110,7 +110,7 @@ std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::sto
     }
     others.push_back(again.finish());
   }
-  ErrorEstimate estimate{.by = comparison.by, .holds = comparison.holds};
+  ErrorEstimate estimate{.by = other.by, .holds = other.holds};
   for (std::size_t k = 0; k < times.size(); ++k) {
     PoseDifference largest;
     for (const std::vector<std::vector<BodyState>>& states : others) {
@@ -120,8 +120,8 @@ std::optional<ErrorEstimate> estimateError(const Trajectory& run, const std::sto
       estimate.horizon = times[k];
       break;
     }
-    estimate.position = std::max(estimate.position, comparison.margin * largest.position);
-    estimate.angle = std::max(estimate.angle, comparison.margin * largest.angle);
+    estimate.position = std::max(estimate.position, other.margin * largest.position);
+    estimate.angle = std::max(estimate.angle, other.margin * largest.angle);
     estimate.until = times[k];
   }
   return estimate;
