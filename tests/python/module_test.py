@@ -180,7 +180,7 @@ run.export("own.csv", 0.1)
         self.assertTrue((self.folder / "page/index.html").exists())
         careen.simulate(scene, method="listing1", dt=0.005).save(self.folder / "finer.careen")
         for far, same in ((0.5, True), (1e-9, False)):
-            found = careen.compare(self.folder / "stepped.careen", self.folder / "finer.careen", motion=far, until=0.2)
+            found = careen.compare(self.folder / "stepped.careen", self.folder / "finer.careen", motion=far, until=0.1)
             self.assertEqual(found["same"], same, found["headline"])
         ended.export(self.folder / "poses.csv", 0.1)
         self.assertRaises(careen.Error, careen.read_run, self.folder / "poses.csv")
