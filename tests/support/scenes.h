@@ -93,6 +93,31 @@ inline const std::string kShown = R"({
               { "time": [0.5, 1], "text": "Part 4" } ]
 })";
 
+/// A scene with all that moves by itself, bodies of other shapes, and the rest of the keys.
+inline const std::string kMoved = R"({
+  "careen": 1,
+  "duration": 2,
+  "gravity": { "path": [[0, 0, 0, -10], [1, 1, 0, -9]], "linear": true },
+  "crowds": { "when": 40, "tolerance": 1e-3 },
+  "walls": [
+    { "name": "belt", "point": [0, 0, 0], "normal": [0, 0, 1], "surface_velocity": [0.5, 0, 0], "surface_spin": 2 },
+    { "name": "press", "normal": [0, 0, -1], "motion": { "path": [[0, 0, 0, 9], [2, 0, 0, 8]] } }
+  ],
+  "boxes": [
+    { "name": "beam", "half_extents": [1, 0.1, 0.1], "fixed": true, "position": [0, 0, 5],
+      "motion": { "velocity": [0, 0, 0.25], "angular_velocity": [0, 0, 1], "about": [1, 0, 5] } },
+    { "name": "sieve", "half_extents": [1, 1, 0.1], "fixed": true, "position": [4, 0, 5],
+      "motion": { "oscillation": { "frequency": 2, "phase": 0.5, "amplitude": [0.1, 0, 0],
+                                   "angular_amplitude": [0, 0.1, 0] } } },
+    { "name": "tee", "density": 500, "position": [-4, 0, 5],
+      "parts": [ { "half_extents": [0.5, 0.1, 0.1] },
+                 { "half_extents": [0.1, 0.1, 0.5], "position": [0, 0, -0.5],
+                   "orientation": { "axis": [0, 0, 1], "angle_deg": 45 } } ] },
+    { "name": "duck", "half_extents": [0.5, 0.5, 0.5], "density": 500, "position": [-4, 4, 5],
+      "mass_from": "duck.obj", "draw": "duck.obj" }
+  ]
+})";
+
 /// A scene with one piece of text, which must occur exactly once, replaced by another.
 inline std::string sceneBut(const std::string& scene, const std::string& piece, const std::string& instead) {
   const std::size_t at = scene.find(piece);
