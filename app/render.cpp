@@ -267,9 +267,10 @@ void refuseToOverwrite(const Reference& reference, FilmSettings& film) {
                      ", expected another one for what differs");
   }
   if (film.there != FilmThere::kReplace && readManifest(folder) && !holdsComparison(folder)) {
-    throw InputError(folder.string() +
-                     ": holds a film, of which only what differs would be left; name another folder, or "
-                     "--overwrite to replace it");
+    throw InputError(
+        folder.string() +
+        ": holds a film, of which only what differs would be left; name another folder with --out, or "
+        "--overwrite to delete that film");
   }
   film.there = FilmThere::kReplace;
 }

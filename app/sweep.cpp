@@ -38,7 +38,7 @@ struct SweepOptions {
   SizeAndRate picture;
   std::optional<int> jobs;
   bool resume = false;
-  std::vector<std::string> questions;
+  OutcomesAsked asked;
   AuditChoice audit;
 };
 
@@ -100,7 +100,7 @@ SweepSettings settingsOf(const SweepOptions& options, const DrawFilm& drawFilm) 
   settings.resume = options.resume;
   settings.keepRuns = !options.keep.empty();
   settings.audit = options.audit.auditDepth();
-  settings.questions = options.questions;
+  settings.asked = options.asked;
   settings.program = "careen " CAREEN_VERSION;
   addFiles(settings, options, drawFilm);
   return settings;
@@ -179,9 +179,11 @@ void addSweep(const CommandLine& commandLine, const DrawFilm& drawFilm) {
   command.add("--keep", options->keep, "runs: each run's trajectory too, as runs/0000017.careen")
       .oneOf({"runs"});
   command
-      .add("--when", options->questions,
+      .add("--when", options->asked.questions,
            "A column with the first moment at which this is true, such as 'a touches b' (see 'careen when')")
       .onePerUse();
+  command.addFlag("--estimate-error", options->asked.errors,
+                  "Columns with each run's error, from other runs: it takes two to four times as long");
   if (drawFilm) {
     command.addFlag("--film", options->film,
                     "Each run's film too, as by 'careen render', in a folder such as runs/0000017");

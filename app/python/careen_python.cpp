@@ -402,7 +402,12 @@ PYBIND11_MODULE(careen, module) {
   module.attr("__version__") = std::string(careen::v1::version()).substr(sizeof("careen"));
   // Loads NumPy now: pybind11 does it where the first array is made, and two threads that do so wait for each
   // other.
-  static_cast<void>(py::array_t<double>(0));
+  try {
+    static_cast<void>(py::array_t<double>(0));
+  } catch (py::error_already_set& error) {
+    py::raise_from(error, PyExc_ImportError, "careen needs NumPy in this Python");
+    throw py::error_already_set();
+  }
   addErrors(module);
 
   py::class_<Run>(module, "Run", "A finished run; careen.simulate and careen.read_run make one.")
@@ -511,8 +516,10 @@ PYBIND11_MODULE(careen, module) {
           "..., truth.json. channels such as 'depth,instance,flow'; frames, size and jobs as for film().")
       .def("estimate_error", &estimateOf,
            "How wrong the run is, from other runs of the scene that take one to three times as long, a "
-           "dictionary: position [m], angle [rad], until [s], and holds, the part of scenes in which it is "
-           "no larger, or None. None if they fail, and of a table of poses.")
+           "dictionary: position [m] and angle [rad], the largest of all boxes up to the time until [s]; if "
+           "that is before the end, chaos has taken over, and nothing is known of later places; holds, the "
+           "part of scenes in which the error is no larger, or None. None if these runs fail, and of a table "
+           "of poses.")
       .def_property_readonly("report", &reportOf,
                              "What was modelled, speed, error and audit, a dictionary: report.json of careen "
                              "simulate.")
@@ -584,17 +591,27 @@ PYBIND11_MODULE(careen, module) {
   module.def(
       "sweep",
       [](const std::filesystem::path& family, const std::filesystem::path& folder,
-         const std::array<long, 2>& runs, int jobs) {
+         const std::array<long, 2>& runs, const std::vector<std::string>& when, bool estimateError,
+         std::optional<int> jobs) {
         careen::v1::SweepTable table;
         {
           const py::gil_scoped_release unlocked;
-          table = careen::v1::sweep(family, folder, runs[0], runs[1], jobs);
+          table = careen::v1::sweep({.family = family,
+                                     .folder = folder,
+                                     .first = runs[0],
+                                     .last = runs[1],
+                                     .when = when,
+                                     .estimateErrors = estimateError,
+                                     .jobs = jobs});
         }
         return py::make_tuple(table.path, table.rows, table.broken);
       },
       py::arg("family"), py::arg("folder"), py::kw_only(), py::arg("runs") = std::array<long, 2>{0, 99},
-      py::arg("jobs") = 0,
+      py::arg("when") = std::vector<std::string>(), py::arg("estimate_error") = false,
+      py::arg("jobs") = py::none(),
       "Simulates runs (first, last) of a family, a scene file whose numbers may be distributions, in jobs "
-      "processes (0: one for each core). Returns the path of the table (table.npz beside it), its rows, and "
+      "processes (None: one for each core). The table has a column for the first moment of each statement in "
+      "when, and with estimate_error columns of each run's error, which takes two to four times as long. "
+      "Returns the path of the table (table.npz beside it), its rows, and "
       "how many of them are of runs that break a promise of their method.");
 }

@@ -293,7 +293,7 @@ struct Difference {
 struct ErrorEstimate {
   double position;              ///< [m] the largest of all boxes
   double angle;                 ///< [rad] likewise
-  double until;                 ///< [s] up to here: the end, or where chaos takes over
+  double until;                 ///< [s] up to here; if that is before the end, nothing is known of later
   std::optional<double> holds;  ///< [1] the part of scenes in which it is no larger, where that was measured
 };
 
@@ -406,10 +406,19 @@ struct SweepTable {
   long broken = 0;  ///< of runs that break a promise of their method
 };
 
-/// Simulates runs `first` to `last` of a family, a scene whose numbers may be distributions, as `careen
-/// sweep` does, in forked processes; 0 jobs: one for each core. SceneError if the family is invalid, Error if
-/// the folder holds another sweep.
-SweepTable sweep(const std::filesystem::path& family, const std::filesystem::path& folder, long first,
-                 long last, int jobs = 0);
+/// Runs of a family, a scene whose numbers may be distributions.
+struct Sweep {
+  std::filesystem::path family;
+  std::filesystem::path folder;
+  long first = 0;
+  long last = 99;
+  std::vector<std::string> when = {};  ///< statements, whose first moments are columns of the table
+  bool estimateErrors = false;         ///< columns with each run's error: two to four times as long
+  std::optional<int> jobs = {};        ///< processes, which are forked; none: one for each core
+};
+
+/// Simulates them, as `careen sweep` does. SceneError if the family is invalid, Error if the folder holds
+/// another sweep.
+SweepTable sweep(const Sweep& sweep);
 
 }  // namespace careen::v1

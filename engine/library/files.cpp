@@ -97,21 +97,21 @@ Comparison compare(const std::filesystem::path& expected, const std::filesystem:
   });
 }
 
-SweepTable sweep(const std::filesystem::path& family, const std::filesystem::path& folder, long first,
-                 long last, int jobs) {
-  return translated(family.string(), [&] {
-    SweepSettings settings;
-    settings.folder = folder;
-    settings.runs = {.first = first, .last = last};
-    if (first < 0 || last < first || last - first >= kMostRuns) {
-      throw InputError("found runs " + std::to_string(first) + " to " + std::to_string(last) +
+SweepTable sweep(const Sweep& sweep) {
+  return translated(sweep.family.string(), [&] {
+    if (sweep.first < 0 || sweep.last < sweep.first || sweep.last - sweep.first >= kMostRuns) {
+      throw InputError("found runs " + std::to_string(sweep.first) + " to " + std::to_string(sweep.last) +
                        ", expected a range from 0 on");
     }
-    settings.jobs = jobs > 0 ? jobs : usableCores();
+    SweepSettings settings;
+    settings.folder = sweep.folder;
+    settings.runs = {.first = sweep.first, .last = sweep.last};
+    settings.asked = {.questions = sweep.when, .errors = sweep.estimateErrors};
+    settings.jobs = std::max(sweep.jobs.value_or(usableCores()), 1);
     settings.program = version();
-    const std::string text = readFile(family);
-    const SweepFigures figures = runSweep(Family(text, family.string()), text, settings);
-    return SweepTable{.path = folder / "table.csv",
+    const std::string text = readFile(sweep.family);
+    const SweepFigures figures = runSweep(Family(text, sweep.family.string()), text, settings);
+    return SweepTable{.path = sweep.folder / "table.csv",
                       .rows = static_cast<long>(figures.rows),
                       .broken = static_cast<long>(figures.broken)};
   });

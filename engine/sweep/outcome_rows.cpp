@@ -107,7 +107,7 @@ void checkQuestions(const Family& family, const std::vector<std::string>& questi
   }
 }
 
-std::vector<OutcomeColumn> outcomeColumns(const Family& family, const std::vector<std::string>& questions) {
+std::vector<OutcomeColumn> outcomeColumns(const Family& family, const OutcomesAsked& asked) {
   std::vector<OutcomeColumn> columns = {{"run", ""}, {"attempts", ""}};
   for (const std::string& path : family.columns()) {
     columns.push_back({path, ""});
@@ -132,8 +132,14 @@ std::vector<OutcomeColumn> outcomeColumns(const Family& family, const std::vecto
                                    {"rest_since", "s"}}) {
     columns.push_back({name, unit});
   }
-  for (const std::string& question : questions) {
+  for (const std::string& question : asked.questions) {
     columns.push_back({question, "s"});
+  }
+  if (asked.errors) {
+    for (const auto& [name, unit] :
+         {std::pair("error_position", "m"), {"error_angle", "rad"}, {"error_until", "s"}}) {
+      columns.push_back({name, unit});
+    }
   }
   for (const char* const name : {"run_impacts", "broken", "box"}) {
     columns.push_back({name, ""});
@@ -141,17 +147,22 @@ std::vector<OutcomeColumn> outcomeColumns(const Family& family, const std::vecto
   return columns;
 }
 
-std::string outcomeHeader(const Family& family, const std::vector<std::string>& questions) {
+std::string outcomeHeader(const Family& family, const OutcomesAsked& asked) {
   CsvRow row;
-  for (const OutcomeColumn& column : outcomeColumns(family, questions)) {
+  for (const OutcomeColumn& column : outcomeColumns(family, asked)) {
     row.add(column.name);
   }
   return row.line();
 }
 
 std::string outcomeRows(std::uint64_t run, const Family::Member& member, const Trajectory& trajectory,
-                        const Audit& audit, const std::vector<std::string>& questions) {
-  const std::vector<double> answers = firstMoments(trajectory, questions);
+                        const Audit& audit, const std::optional<ErrorEstimate>& error,
+                        const OutcomesAsked& asked) {
+  const std::vector<double> answers = firstMoments(trajectory, asked.questions);
+  std::vector<double> errors;
+  if (asked.errors) {
+    errors = error ? std::vector{error->position, error->angle, error->until} : std::vector(3, kNone);
+  }
   const std::vector<ImpactsOfBox> impacts = impactsOfBoxes(trajectory);
   std::string rows;
   for (std::size_t i = 0; i < trajectory.tracks.size(); ++i) {
@@ -173,6 +184,7 @@ std::string outcomeRows(std::uint64_t run, const Family::Member& member, const T
                 .addAll(std::array{impacts[i].count, impacts[i].first, impacts[i].last})
                 .add(restSince(trajectory.tracks[i]))
                 .addAll(answers)
+                .addAll(errors)
                 .add(static_cast<double>(trajectory.impacts.size()))
                 .add(static_cast<double>(audit.breaches.size()))
                 .add(body.name)
@@ -181,9 +193,9 @@ std::string outcomeRows(std::uint64_t run, const Family::Member& member, const T
   return rows;
 }
 
-OutcomeTable::OutcomeTable(const Family& family, const std::vector<std::string>& questions,
-                           std::string_view rows, const std::string& name)
-    : columns(outcomeColumns(family, questions)), numbers(columns.size() - 1) {
+OutcomeTable::OutcomeTable(const Family& family, const OutcomesAsked& asked, std::string_view rows,
+                           const std::string& name)
+    : columns(outcomeColumns(family, asked)), numbers(columns.size() - 1) {
   const auto fail = [&](const std::string& found) {
     throw InputError(name + ": " + found + " after " + std::to_string(boxes.size()) +
                      " rows, expected what 'careen sweep' wrote; remove it and resume");

@@ -88,8 +88,11 @@ std::string manifestOf(const std::string& familyText, const SweepSettings& setti
   if (settings.keepRuns) {
     manifest["keep"] = "runs";
   }
-  if (!settings.questions.empty()) {
-    manifest["when"] = nlohmann::ordered_json(settings.questions).dump();
+  if (!settings.asked.questions.empty()) {
+    manifest["when"] = nlohmann::ordered_json(settings.asked.questions).dump();
+  }
+  if (settings.asked.errors) {
+    manifest["estimate_error"] = "yes";
   }
   for (const auto& [name, what] : settings.written) {
     manifest[name] = what;
@@ -111,8 +114,10 @@ std::string simulateBlock(const Family& family, const RunRange& range, const Swe
     const Family::Member member = family.member(run);
     try {
       Trajectory trajectory = record(prepare(member.scene, {.threads = 1}).setup, stop);
-      rows +=
-          outcomeRows(run, member, trajectory, audit(trajectory, settings.audit, stop), settings.questions);
+      const Audit audited = audit(trajectory, settings.audit, stop);
+      const std::optional<ErrorEstimate> error =
+          settings.asked.errors ? estimateError(trajectory, stop) : std::nullopt;
+      rows += outcomeRows(run, member, trajectory, audited, error, settings.asked);
       if (settings.keepRuns) {
         saveTrajectory(trajectory, settings.folder / "runs" / (padded(k) + ".careen"));
       }
@@ -134,13 +139,13 @@ SweepFigures join(const Family& family, const SweepSettings& settings, const Swe
   for (std::int64_t block = 0; block < blocks.count(); ++block) {
     rows += readFile(blocks.file(block));
   }
-  const OutcomeTable table(family, settings.questions, rows, folder.rows().string());
+  const OutcomeTable table(family, settings.asked, rows, folder.rows().string());
   figures.rows = std::ssize(table.boxes);
   const std::vector<double>& broken = table.numbers.back();
   figures.broken = std::count_if(broken.begin(), broken.end(), [](double count) { return count > 0; });
   AtomicFile csv(folder.table(".csv"));
   AtomicFile npz(folder.table(".npz"));
-  csv.write(outcomeHeader(family, settings.questions));
+  csv.write(outcomeHeader(family, settings.asked));
   csv.write(rows);
   npz.write(table.archive());
   npz.commit();
@@ -182,7 +187,7 @@ Share parseShare(const std::string& text) {
 SweepFigures runSweep(const Family& family, const std::string& familyText, const SweepSettings& settings,
                       const std::function<void(const SweepProgress&)>& progress,
                       const std::stop_token& stop) {
-  checkQuestions(family, settings.questions);
+  checkQuestions(family, settings.asked.questions);
   const Blocks blocks(settings);
   const std::string manifest = manifestOf(familyText, settings);
   SweepFigures figures;

@@ -10,6 +10,7 @@
 
 #include "audit/audit.h"
 #include "sweep/family.h"
+#include "sweep/outcome_rows.h"
 #include "trajectory/trajectory.h"
 
 namespace careen {
@@ -39,7 +40,7 @@ struct SweepSettings {
   bool resume = false;    ///< keep the blocks that are there
   bool keepRuns = false;  ///< each run's trajectory, in runs/
   AuditDepth audit = AuditDepth::kUsual;
-  std::vector<std::string> questions;  ///< whose first moments are columns of the table
+  OutcomesAsked asked;
   /// Writes other files of a run, such as its film, into `folder`: runs/0000017, which appears whole or not
   /// at all, before the run's row. It may change the run. None: there is no such folder.
   std::function<void(Trajectory& run, const std::filesystem::path& folder, const std::stop_token& stop)>

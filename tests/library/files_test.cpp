@@ -72,14 +72,21 @@ TEST_F(LibraryFiles, sweepsMakeTheProgramsTable) {
                 R"({"careen": 1, "duration": 0.5, "gravity": [0, 0, -10],
                     "boxes": [{"half_extents": [0.1, 0.1, 0.1], "mass": {"uniform": [1, 2]},
                                "position": [0, 0, {"uniform": [1, 2]}]}]})");
-  const Ended ended = program({"sweep", "family.json", "--runs", "0-9", "--out", "theirs"});
+  const Ended ended = program({"sweep", "family.json", "--runs", "0-9", "--out", "theirs", "--when",
+                               "height(box-0) < 1", "--estimate-error"});
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  const SweepTable table = sweep(folder_ / "family.json", folder_ / "own", 0, 9, 2);
+  const SweepTable table = sweep({.family = folder_ / "family.json",
+                                  .folder = folder_ / "own",
+                                  .last = 9,
+                                  .when = {"height(box-0) < 1"},
+                                  .estimateErrors = true,
+                                  .jobs = 2});
   EXPECT_EQ(table.rows, 10);
   EXPECT_EQ(table.broken, 0);
   EXPECT_EQ(textOf(table.path), textOf(folder_ / "theirs/table.csv"));
-  EXPECT_THROW(sweep(folder_ / "family.json", folder_ / "other", 5, 4), Error);
-  EXPECT_THROW(sweep(folder_ / "none.json", folder_ / "other", 0, 4), Error);
+  const std::filesystem::path other = folder_ / "other";
+  EXPECT_THROW(sweep({.family = folder_ / "family.json", .folder = other, .first = 5, .last = 4}), Error);
+  EXPECT_THROW(sweep({.family = folder_ / "none.json", .folder = other}), Error);
 }
 
 // A black picture, and one of which a part is grey: 1 % of the pixels, off by .2.

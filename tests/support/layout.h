@@ -27,7 +27,7 @@ inline const std::map<std::string, Names> kMayInclude = {
     {"sound", {"film", "view", "trajectory", "physics", "stage", "core"}},
     {"page", {"audit", "trajectory", "physics", "stage", "core"}},
     {"truth", {"view", "film", "trajectory", "stage", "physics", "core"}},
-    {"sweep", {"scene", "trajectory", "audit", "question", "physics", "stage", "core"}},
+    {"sweep", {"runs", "scene", "trajectory", "audit", "question", "physics", "stage", "core"}},
     {"exchange", {"scene", "view", "trajectory", "physics", "stage", "core"}},
     {"render", {"view", "trajectory", "film", "stage", "image", "core"}},
     {"library",

@@ -36,7 +36,7 @@ class OutcomeRows : public testing::Test {
 
 TEST_F(OutcomeRows, tellWhatBecameOfEachBoxThatMoves) {
   const Family::Member member = family_.member(12);
-  const std::string rows = outcomeRows(12, member, run_, {}, {});
+  const std::string rows = outcomeRows(12, member, run_, {}, {}, {});
   const OutcomeTable table(family_, {}, rows + rows, "rows");
   ASSERT_EQ(table.boxes, (std::vector<std::string>{"a \"b\",\nc", "a \"b\",\nc"}));
   EXPECT_EQ(value(table, "run"), 12);
@@ -65,7 +65,7 @@ TEST_F(OutcomeRows, faceUpIsThatAgainstGravity) {
   const auto face = [&](const Mat3& worldFromBody, const Vec3& gravity) {
     step.start.pose.worldFromBody = worldFromBody;
     run_.world.gravity = gravity;
-    return value(OutcomeTable(family_, {}, outcomeRows(0, member, run_, {}, {}), "rows"), "face_up");
+    return value(OutcomeTable(family_, {}, outcomeRows(0, member, run_, {}, {}, {}), "rows"), "face_up");
   };
   const Mat3 quarter = Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()).toRotationMatrix();  // y to z
   EXPECT_EQ(face(quarter, Vec3(0, 0, -1)), 4);
@@ -76,7 +76,7 @@ TEST_F(OutcomeRows, faceUpIsThatAgainstGravity) {
 }
 
 TEST_F(OutcomeRows, damagedLinesAreRefused) {
-  const std::string rows = outcomeRows(1, family_.member(1), run_, {}, {});
+  const std::string rows = outcomeRows(1, family_.member(1), run_, {}, {}, {});
   EXPECT_EQ(OutcomeTable(family_, {}, rows, "rows").boxes.size(), 1U);
   for (std::size_t cut = 1; cut < rows.size(); ++cut) {
     EXPECT_THROW(OutcomeTable(family_, {}, rows.substr(0, cut), "rows"), InputError) << cut;
@@ -88,13 +88,13 @@ TEST_F(OutcomeRows, damagedLinesAreRefused) {
 TEST_F(OutcomeRows, tellWhenQuestionsAreFirstTrue) {
   run_.world.bodies[0].name = "drifter";
   const std::vector<std::string> questions = {"x(drifter) > 1.5", "x(drifter) > 3", "rest(other)"};
-  const std::string rows = outcomeRows(12, family_.member(12), run_, {}, questions);
-  const OutcomeTable table(family_, questions, rows, "rows");
+  const std::string rows = outcomeRows(12, family_.member(12), run_, {}, {}, {.questions = questions});
+  const OutcomeTable table(family_, {.questions = questions}, rows, "rows");
   EXPECT_NEAR(value(table, questions[0]), 0.25, 1e-12);
   EXPECT_TRUE(std::isnan(value(table, questions[1])));
   EXPECT_TRUE(std::isnan(value(table, questions[2])));
   EXPECT_TRUE(
-      outcomeHeader(family_, questions)
+      outcomeHeader(family_, {.questions = questions})
           .ends_with(",rest_since,x(drifter) > 1.5,x(drifter) > 3,rest(other),run_impacts,broken,box\n"));
   EXPECT_NO_THROW(checkQuestions(family_, {"x(drifter) > 1.5", "rest"}));
   EXPECT_THROW(checkQuestions(family_, {"rest(other)"}), InputError);
@@ -105,6 +105,18 @@ TEST_F(OutcomeRows, headerNamesTheColumns) {
   const std::string header = outcomeHeader(family_, {});
   EXPECT_TRUE(header.starts_with("run,attempts,gravity[2],half_x,")) << header;
   EXPECT_TRUE(header.ends_with(",run_impacts,broken,box\n")) << header;
+}
+
+TEST_F(OutcomeRows, errorsAreThereIfTheyAreAskedFor) {
+  const OutcomesAsked asked{.errors = true};
+  const ErrorEstimate error{.by = "", .position = 0.25, .angle = 0.5, .until = 1.5};
+  const OutcomeTable known(family_, asked, outcomeRows(1, family_.member(1), run_, {}, error, asked), "rows");
+  EXPECT_EQ(value(known, "error_position"), 0.25);
+  EXPECT_EQ(value(known, "error_angle"), 0.5);
+  EXPECT_EQ(value(known, "error_until"), 1.5);
+  const OutcomeTable unknown(family_, asked, outcomeRows(1, family_.member(1), run_, {}, {}, asked), "rows");
+  EXPECT_TRUE(std::isnan(value(unknown, "error_position")));
+  EXPECT_EQ(outcomeHeader(family_, {}).find("error_"), std::string::npos);
 }
 
 }  // namespace
