@@ -72,7 +72,7 @@ class GlbWriter {
     nodes_.push_back({{"name", ""}, {"rotation", floatsOf(Quat(std::sqrt(0.5), -std::sqrt(0.5), 0, 0))}});
     addBoxes();
     addSurfaces();
-    addSprings();
+    addLines();
     addCamera();
     nodes_[0]["name"] = names_.unique(run_.stage.name);
     for (std::size_t node = 1; node < nodes_.size(); ++node) {
@@ -254,22 +254,38 @@ class GlbWriter {
     }
   }
 
-  void addSprings() {
-    std::optional<std::size_t> mesh;
+  // From 0 to 1 along z.
+  std::size_t lineMesh() {
+    if (!line_) {
+      line_ = meshes_.size();
+      const std::size_t ends =
+          buffer_.addFloats(GltfBuffer::Kind::kVec3, {0, 0, 0, 0, 0, 1}, true, kVertices);
+      meshes_.push_back({{"primitives",
+                          {{{"attributes", {{"POSITION", ends}}},
+                            {"mode", kLines},
+                            {"material", material(Vec3::Constant(0.1), 1)}}}}});
+    }
+    return *line_;
+  }
+
+  void addLine(const std::string& name, const SpringEnd& from, const SpringEnd& to) {
+    const std::size_t node = nodes_.size();
+    nodes_.push_back({{"name", names_.unique(name)}, {"mesh", lineMesh()}});
+    animation_.moveWithLine(node, nodes_[node], from, to);
+  }
+
+  // Springs, rods and ropes. In glTF nothing vanishes: joints that are released are left out.
+  void addLines() {
     std::size_t number = 0;
     for (const Spring& spring : run_.world.springs) {
-      if (!mesh) {
-        mesh = meshes_.size();
-        const std::size_t ends =
-            buffer_.addFloats(GltfBuffer::Kind::kVec3, {0, 0, 0, 0, 0, 1}, true, kVertices);
-        meshes_.push_back({{"primitives",
-                            {{{"attributes", {{"POSITION", ends}}},
-                              {"mode", kLines},
-                              {"material", material(Vec3::Constant(0.1), 1)}}}}});
+      addLine("spring " + std::to_string(number++), spring.from, spring.to);
+    }
+    for (const Joint& joint : run_.world.joints) {
+      const bool isLine = joint.kind == Joint::Kind::kRod || joint.kind == Joint::Kind::kRope;
+      if (isLine && joint.until > run_.settings.duration) {
+        addLine(joint.name, {.body = joint.from.body, .point = joint.from.point},
+                {.body = joint.to.body, .point = joint.to.point});
       }
-      const std::size_t node = nodes_.size();
-      nodes_.push_back({{"name", names_.unique("spring " + std::to_string(number++))}, {"mesh", *mesh}});
-      animation_.moveWithSpring(node, nodes_[node], spring);
     }
   }
 
@@ -332,6 +348,7 @@ class GlbWriter {
   Json materialsWritten_ = Json::array();
   Json camera_;
   Json cube_;
+  std::optional<std::size_t> line_;
   std::map<std::array<double, 4>, std::size_t> materialIndices_;
   std::map<std::size_t, std::size_t> boxMeshes_;  // by material
 };

@@ -195,10 +195,11 @@ void GltfAnimation::moveWithCourse(std::size_t index, AnimationJson& node, const
           }));
 }
 
-void GltfAnimation::moveWithSpring(std::size_t index, AnimationJson& node, const Spring& spring) {
+void GltfAnimation::moveWithLine(std::size_t index, AnimationJson& node, const SpringEnd& from,
+                                 const SpringEnd& to) {
   std::vector<double> kinks;
   std::vector<double> seams;
-  for (const SpringEnd& end : {spring.from, spring.to}) {
+  for (const SpringEnd& end : {from, to}) {
     if (end.body) {
       addKinks(static_cast<std::size_t>(*end.body), kinks, seams);
     }
@@ -210,7 +211,7 @@ void GltfAnimation::moveWithSpring(std::size_t index, AnimationJson& node, const
   };
   animate(index, node, lineKeys(span(std::move(kinks), seams), within_, [&](double time) {
             const double moment = sceneTime(time);
-            return linePlacement(end(spring.from, moment), end(spring.to, moment));
+            return linePlacement(end(from, moment), end(to, moment));
           }));
 }
 

@@ -22,8 +22,9 @@ class GltfAnimation {
 
   /// As a body of the run: translation and rotation.
   void moveWithBody(std::size_t index, nlohmann::ordered_json& node, std::size_t body);
-  /// As the line between the ends of a spring: translation, rotation and scale.
-  void moveWithSpring(std::size_t index, nlohmann::ordered_json& node, const Spring& spring);
+  /// As the line between two points of bodies or the world: translation, rotation and scale.
+  void moveWithLine(std::size_t index, nlohmann::ordered_json& node, const SpringEnd& from,
+                    const SpringEnd& to);
   /// As the frame of a wall that moves by itself.
   void moveWithCourse(std::size_t index, nlohmann::ordered_json& node, const Course& course);
   /// As functions of film time [s] say, whose only kinks are those of the time map.

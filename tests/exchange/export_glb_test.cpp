@@ -134,6 +134,31 @@ TEST(ExportGlb, bodyOfSeveralBoxesIsOneMesh) {
   EXPECT_NEAR(volume, 8 * (0.5 * 0.1 * 0.1 + 0.1 * 0.3 * 0.2), 1e-6);
 }
 
+// A bob on a rope of 2 m, at rest aside, and a rod that lets go.
+TEST(ExportGlb, hasRodsAndRopesThatHoldToTheEnd) {
+  const Glb glb(encodeGlb(runOf(R"({ "careen": 1, "duration": 1, "gravity": [0, 0, -9.81],
+    "boxes": [ { "name": "bob", "half_extents": [0.1, 0.1, 0.1], "mass": 1, "position": [1.2, 0, 1.4] },
+               { "name": "weight", "half_extents": [0.1, 0.1, 0.1], "mass": 1, "position": [3, 0, 1] } ],
+    "joints": [ { "name": "string", "type": "rope", "between": ["world", "bob"], "points": [[0, 0, 3], [0, 0, 0]], "length": 2 },
+                { "name": "hook", "type": "rod", "between": ["world", "weight"], "points": [[3, 0, 3], [0, 0, 0]],
+                  "until": 0.5 } ] })"))
+                    .bytes);
+  const nlohmann::json& nodes = glb.json.at("nodes");
+  std::vector<std::string> lines;
+  for (const nlohmann::json& node : nodes) {
+    const std::string name = node.at("name");
+    if (name == "string" || name == "hook") {
+      lines.push_back(name);
+      EXPECT_NEAR(node.at("translation").at(0).get<double>(), 1.2, 1e-4) << "from the bob";
+      EXPECT_NEAR(node.at("translation").at(2).get<double>(), 1.4, 1e-4);
+      EXPECT_NEAR(node.at("scale").at(2).get<double>(), 2, 1e-4);
+      const nlohmann::json& mesh = glb.json.at("meshes").at(node.at("mesh").get<std::size_t>());
+      EXPECT_EQ(mesh.at("primitives").at(0).at("mode"), 1);
+    }
+  }
+  EXPECT_EQ(lines, std::vector<std::string>{"string"});
+}
+
 TEST(ExportGlb, animatesOnlyWhatMovesInTimeOfTheFilm) {
   const Glb glb(encodeGlb(runOf(kAll)).bytes);
   const nlohmann::json& animation = glb.json.at("animations").at(0);

@@ -91,7 +91,7 @@ TEST(GltfAnimation, aSpringIsAStretchedLine) {
   const Trajectory run = flightOntoAFloor();
   const Spring spring{.from = {.body = std::nullopt, .point = Vec3(0, 0, 3)}, .to = {.body = 0}};
   const Written found = written(run, [&](GltfAnimation& animation, nlohmann::ordered_json& node) {
-    animation.moveWithSpring(4, node, spring);
+    animation.moveWithLine(4, node, spring.from, spring.to);
   });
   const auto& channels = found.animations.at(0).at("channels");
   ASSERT_EQ(channels.size(), 3U);

@@ -365,7 +365,7 @@ TEST(TruthsOfContact, ofBeltsAndBrakesAreThoseWorkedOutByHand) {
   EXPECT_EQ(wayOf(3), 0);
   const QuadScene table = sceneOf("turntable");
   for (const QuadBox& box : table.boxes) {  // once round after π s
-    const std::vector<double> round{static_cast<double>(kQuadPi)};
+    const std::vector<double> round{static_cast<double>(quadPi())};
     const oracle::QuadPose back = oracle::onTurntable(box, table.gravity, table.walls.at(0), round).back();
     EXPECT_LT(static_cast<double>((back.position - box.position).norm()), 1e-15);
   }

@@ -198,7 +198,7 @@ class QuadNewmark {
     ends_ = 1e300;
     if (ratio_ < 1) {
       const Quad first = asin(ratio_);
-      ends_ = (first + kQuadPi * ceil((angle(now_) - first) / kQuadPi) - phase_) / rate_;
+      ends_ = (first + quadPi() * ceil((angle(now_) - first) / quadPi()) - phase_) / rate_;
     }
   }
 
@@ -207,11 +207,11 @@ class QuadNewmark {
   void slips(int way) {
     way_ = way;
     const Quad first = ratio_ < 1 ? Quad(asin(way * ratio_)) : Quad(0);
-    const Quad turn = floor((angle(now_) - first) / (2 * kQuadPi));
+    const Quad turn = floor((angle(now_) - first) / (2 * quadPi()));
     Quad from = now_;
     for (Quad k = turn;; k += 1) {
-      for (const Quad& each : {first, Quad(kQuadPi - first)}) {
-        const Quad to = (each + 2 * kQuadPi * k - phase_) / rate_;
+      for (const Quad& each : {first, Quad(quadPi() - first)}) {
+        const Quad to = (each + 2 * quadPi() * k - phase_) / rate_;
         // What has just begun to slip has none at its own angle.
         if (to > now_ + Quad(1e-25) && way * slipAt(to) <= 0) {
           ends_ = rootIn(from, to);

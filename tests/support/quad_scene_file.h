@@ -55,7 +55,7 @@ inline void readMotion(const nlohmann::json& motion, QuadBox& box) {
   }
   const nlohmann::json swing = motion.value("oscillation", nlohmann::json::object());
   box.amplitude = vectorIn(swing, "amplitude");
-  box.rate = 2 * kQuadPi * Quad(swing.value("frequency", 0.0));
+  box.rate = 2 * quadPi() * Quad(swing.value("frequency", 0.0));
   box.phase = swing.value("phase", 0.0);
 }
 

@@ -26,9 +26,9 @@ struct Modulus {
   explicit Modulus(double complementary)
       : kc(complementary),
         k(sqrt((1 - kc) * (1 + kc))),
-        quarter(kQuadPi / (2 * meanOf(1, kc))),
-        otherQuarter(kQuadPi / (2 * meanOf(1, k))),
-        nome(exp(-kQuadPi * otherQuarter / quarter)) {}
+        quarter(quadPi() / (2 * meanOf(1, kc))),
+        otherQuarter(quadPi() / (2 * meanOf(1, k))),
+        nome(exp(-quadPi() * otherQuarter / quarter)) {}
   Quad kc, k;
   Quad quarter, otherQuarter;  // K, K'
   Quad nome;
@@ -93,7 +93,7 @@ double phaseOf(const Modulus& modulus, double cotangent) {
 TEST(LandenLadder, phaseOfHalvesOfTheQuarterPeriodIsInEighthsOfATurn) {
   for (const double kc : {1e-12, 1e-3, 0.2, 0.6, 0.95}) {
     const Modulus modulus(kc);
-    const double pi = static_cast<double>(kQuadPi);
+    const double pi = static_cast<double>(quadPi());
     EXPECT_NEAR(phaseOf(modulus, std::sqrt(kc)), pi / 4, 1e-15) << kc;
     EXPECT_NEAR(phaseOf(modulus, 0), pi / 2, 1e-15) << kc;
     EXPECT_NEAR(phaseOf(modulus, -std::sqrt(kc)), 3 * pi / 4, 2e-15) << kc;
@@ -107,10 +107,10 @@ TEST(LandenLadder, phaseIsTheIncompleteIntegral) {
     const Modulus modulus(dice.between(0.1, 0.99));
     const double phi = dice.between(0.05, 1.5);
     const Quad u = boost::math::ellint_1(modulus.k, Quad(phi));
-    const double exact = static_cast<double>(kQuadPi / 2 * u / modulus.quarter);
+    const double exact = static_cast<double>(quadPi() / 2 * u / modulus.quarter);
     const double cotangent = std::cos(phi) / std::sin(phi);
     EXPECT_NEAR(phaseOf(modulus, cotangent), exact, 4e-15);
-    EXPECT_NEAR(phaseOf(modulus, -cotangent), static_cast<double>(kQuadPi) - exact, 4e-15);
+    EXPECT_NEAR(phaseOf(modulus, -cotangent), static_cast<double>(quadPi()) - exact, 4e-15);
   }
 }
 
@@ -144,7 +144,7 @@ TEST(LandenLadder, decayIsTheExponentialOfTheIncompleteIntegral) {
     const Modulus modulus(dice.between(0.1, 0.95));
     const double phi = dice.between(0.05, 1.5);
     const Quad w = boost::math::ellint_1(modulus.kc, Quad(phi));
-    const Quad exact = exp(-kQuadPi / 2 * w / modulus.quarter);
+    const Quad exact = exp(-quadPi() / 2 * w / modulus.quarter);
     const double sine = std::sin(phi);
     const double half = std::sin((std::asin(1.0) - phi) / 2);
     EXPECT_LT(relativeError(decayOf(modulus, sine, 2 * half * half), exact), 4e-15);
@@ -163,7 +163,7 @@ TEST(LandenLadder, meanOfTheThirdKindIsThatOfItsIntegrand) {
     Quad sum = 0;
     Quad weights = 0;
     for (int i = 0; i < kPoints; ++i) {
-      const Quad sine = sin(kQuadPi * i / kPoints);
+      const Quad sine = sin(quadPi() * i / kPoints);
       const Quad s2 = sine * sine;
       const Quad c2 = 1 - s2;
       const Quad weight = 1 / sqrt(1 - modulus.k * modulus.k * s2);

@@ -18,12 +18,12 @@ struct Angle {
   double quarterTurns = 0;
   double rest = 0;
 
-  Quad at(double t) const { return quadOf(rate) * Quad(t) + Quad(quarterTurns) * kQuadPi / 2 + Quad(rest); }
+  Quad at(double t) const { return quadOf(rate) * Quad(t) + Quad(quarterTurns) * quadPi() / 2 + Quad(rest); }
   LinearPhase<double> phase() const { return {rate, quarterTurns, rest}; }
 };
 
 double errorOf(const TurnedAngle<double>& got, const Quad& exact) {
-  return static_cast<double>(abs(Quad(got.quarterTurns) * kQuadPi / 2 + Quad(got.rest) - exact));
+  return static_cast<double>(abs(Quad(got.quarterTurns) * quadPi() / 2 + Quad(got.rest) - exact));
 }
 
 Angle randomAngle(test::Dice& dice) {
@@ -32,6 +32,8 @@ Angle randomAngle(test::Dice& dice) {
           .quarterTurns = std::floor(dice.between(-4, 4)),
           .rest = dice.between(-0.7, 0.7)};
 }
+
+TEST(QuadPi, isTheArcCosineOfMinusOne) { EXPECT_EQ(quadPi(), acos(Quad(-1))); }
 
 // A double for the rate would be off by 10¹⁰ · 2⁻⁵³ = 1e-6 after 10⁹ s at 10 rad/s.
 TEST(LinearPhase, knowsAnAngleToARoundingAfterAnyNumberOfTurns) {
@@ -66,7 +68,7 @@ TEST(LinearPhase, isPreciseWhereItPassesAWholeQuarterTurn) {
     const double rate = dice.between(0.1, 0.7);
     const double near = dice.between(-1e-9, 1e-9);
     const Angle angle{.rate = DoubleDouble(rate), .quarterTurns = 2, .rest = near - rate * t};
-    const Quad exact = angle.at(t) - kQuadPi;
+    const Quad exact = angle.at(t) - quadPi();
     const TurnedAngle<double> got = angle.phase().preciselyAt(t);
     EXPECT_EQ(got.quarterTurns, 2);
     EXPECT_LT(static_cast<double>(abs(Quad(got.rest) - exact)), 1e-16) << near;  // measured 6.4e-17
@@ -90,8 +92,8 @@ TEST(LinearPhase, hasTheSinesOfBothOfTwo) {
 TEST(LinearPhase, ofAnotherTypeIsTheSameAngle) {
   const LinearPhase<Quad> phase(Quad(3) / 7, Quad(5), Quad(1) / 9);
   const TurnedAngle<Quad> got = phase.at(Quad(1234));
-  const Quad exact = Quad(3 * 1234) / 7 + 5 * kQuadPi / 2 + Quad(1) / 9;
-  EXPECT_LT(static_cast<double>(abs(got.quarterTurns * kQuadPi / 2 + got.rest - exact)), 1e-30);
+  const Quad exact = Quad(3 * 1234) / 7 + 5 * quadPi() / 2 + Quad(1) / 9;
+  EXPECT_LT(static_cast<double>(abs(got.quarterTurns * quadPi() / 2 + got.rest - exact)), 1e-30);
   EXPECT_EQ(got.quarterTurns, floor(got.quarterTurns));
   EXPECT_LT(static_cast<double>(abs(got.rest)), 0.7854);
 }

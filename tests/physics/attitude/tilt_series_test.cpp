@@ -80,19 +80,19 @@ TEST(TiltSeries, bothSeriesTellTheSameLean) {
   test::Dice dice(2);
   for (int k = 0; k < 300; ++k) {
     const Quad q(dice.between(0.1, 0.2));
-    const Quad quotient = -log(q) / kQuadPi;  // K'/K
+    const Quad quotient = -log(q) / quadPi();  // K'/K
     const Quad part(dice.between(0, 0.99));   // s/K'
-    const Quad epsilon = exp(-kQuadPi * quotient * (1 - part) / 2);
+    const Quad epsilon = exp(-quadPi() * quotient * (1 - part) / 2);
     const TiltSeries<Quad> direct = TiltSeries<Quad>::fromNome(q, epsilon);
     const TiltSeries<Quad> other = TiltSeries<Quad>::fromComplementaryNome(
-        exp(-kQuadPi / (2 * quotient)), kQuadPi * part / 4, 1 / (2 * quotient));
+        exp(-quadPi() / (2 * quotient)), quadPi() * part / 4, 1 / (2 * quotient));
     EXPECT_FALSE(other.isDirect());
     // Up to three half turns either way.
     const int quarters = static_cast<int>(std::floor(dice.between(-6, 7)));
     const Quad rest(dice.between(-0.78, 0.78));
-    const Quad v = quarters * kQuadPi / 2 + rest;
+    const Quad v = quarters * quadPi() / 2 + rest;
     const auto lean = other.transformed({Quad(quarters), rest});
-    const elementary::SinCos<Quad> phase = sinCosOf(Quad(lean.phase * kQuadPi / 2));
+    const elementary::SinCos<Quad> phase = sinCosOf(Quad(lean.phase * quadPi() / 2));
     const CayleyKlein<Quad> got = product<Quad>({phase.cos, phase.sin, 0, 0}, lean.spinor);
     EXPECT_LT(distance(ofUnitLength(got), ofUnitLength(direct.direct(sinCosOf(v)))), 1e-30)
         << q << ' ' << quarters;

@@ -36,8 +36,8 @@ World leaning(double half, double tilt) {
 double timeOfFall(const World& world) {
   const Mat3& turned = world.bodies[0].initial.pose.worldFromBody;
   const Quad half = world.bodies[0].halfExtents.x();
-  const Quad start = abs(atan2(Quad(turned(0, 2)), Quad(turned(2, 2))) - kQuadPi / 4);
-  const Quad end = acosh(kQuadPi / 4 / start);
+  const Quad start = abs(atan2(Quad(turned(0, 2)), Quad(turned(2, 2))) - quadPi() / 4);
+  const Quad end = acosh(quadPi() / 4 / start);
   const Quad rate = Quad(9.81) / (sqrt(Quad(2)) * half * 4 / 3);
   const auto slope = [&](const Quad& x) {
     const Quad angle = start * cosh(x);
