@@ -220,6 +220,7 @@ function sceneOf(gltf) {
   const extent = new THREE.Box3();
   gltf.scene.updateMatrixWorld(true);
   gltf.scene.traverse(node => {
+    if (node.isLine) node.material.color.set(0xd8d2c4);  // springs, rods, ropes: on a dark background
     if (!node.isMesh) return;
     const isBox = node.userData.mass !== undefined;
     node.castShadow = isBox;

@@ -7,22 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "library/beside_program.h"
 #include "library/careen.h"
-#include "support/process.h"
 
 namespace careen::v1 {
 namespace {
 
 const std::filesystem::path kScene = std::filesystem::path(CAREEN_SOURCE_DIR) / "assets/scenes/zeno.json";
 
-class LibraryReads : public testing::Test {
+class LibraryReads : public BesideProgram {
  protected:
-  Ended program(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), CAREEN_BINARY);
-    const Ended ended = Process(arguments, folder_.path()).wait();
-    EXPECT_EQ(ended.exitCode, 0) << ended.err;
-    return ended;
-  }
   // Whether a run's file is that of `careen simulate` with these arguments.
   testing::AssertionResult isThatOf(const v1::Run& run, std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "simulate");
@@ -33,8 +27,6 @@ class LibraryReads : public testing::Test {
                ? testing::AssertionSuccess()
                : testing::AssertionFailure() << "other bytes than the program's";
   }
-
-  TemporaryFolder folder_;
 };
 
 // Lines of a report that say nothing of time spent.

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "support/process.h"
+#include "library/beside_program.h"
 
 namespace careen::v1 {
 namespace {
@@ -35,17 +35,7 @@ std::vector<std::vector<double>> rowsOf(const std::filesystem::path& path) {
   return rows;
 }
 
-class Library : public testing::Test {
- protected:
-  Ended program(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), CAREEN_BINARY);
-    const Ended ended = Process(arguments, folder_.path()).wait();
-    EXPECT_EQ(ended.exitCode, 0) << ended.err;
-    return ended;
-  }
-
-  TemporaryFolder folder_;
-};
+using Library = BesideProgram;
 
 // The four gains of the scene, by a function.
 TEST_F(Library, asksAControllerAtEachSample) {

@@ -8,23 +8,15 @@
 #include <vector>
 
 #include "image/png.h"
+#include "library/beside_program.h"
 #include "library/careen.h"
-#include "support/process.h"
 
 namespace careen::v1 {
 namespace {
 
 const std::filesystem::path kShipped = std::filesystem::path(CAREEN_SOURCE_DIR) / "assets/scenes";
 
-class LibraryFiles : public testing::Test {
- protected:
-  Ended program(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), CAREEN_BINARY);
-    return Process(arguments, folder_.path()).wait();
-  }
-
-  TemporaryFolder folder_;
-};
+using LibraryFiles = BesideProgram;
 
 TEST_F(LibraryFiles, areThoseOfTheProgram) {
   const std::string scene = kShipped / "careen.json";
@@ -36,7 +28,7 @@ TEST_F(LibraryFiles, areThoseOfTheProgram) {
     if (suffix == ".npz" || suffix == ".csv") {
       arguments.insert(arguments.end(), {"--every", "0.1"});
     }
-    ASSERT_EQ(program(arguments).exitCode, 0) << suffix;
+    ASSERT_EQ(ended(arguments).exitCode, 0) << suffix;
     EXPECT_TRUE(textOf(own) == textOf(folder_ / ("theirs" + suffix))) << suffix;
   }
   EXPECT_THROW(run.exportTo(folder_ / "run.obj"), Error);
@@ -72,9 +64,9 @@ TEST_F(LibraryFiles, sweepsMakeTheProgramsTable) {
                 R"({"careen": 1, "duration": 0.5, "gravity": [0, 0, -10],
                     "boxes": [{"half_extents": [0.1, 0.1, 0.1], "mass": {"uniform": [1, 2]},
                                "position": [0, 0, {"uniform": [1, 2]}]}]})");
-  const Ended ended = program({"sweep", "family.json", "--runs", "0-9", "--out", "theirs", "--when",
-                               "height(box-0) < 1", "--estimate-error"});
-  ASSERT_EQ(ended.exitCode, 0) << ended.err;
+  const Ended done = ended({"sweep", "family.json", "--runs", "0-9", "--out", "theirs", "--when",
+                            "height(box-0) < 1", "--estimate-error"});
+  ASSERT_EQ(done.exitCode, 0) << done.err;
   const SweepTable table = sweep({.family = folder_ / "family.json",
                                   .folder = folder_ / "own",
                                   .last = 9,
@@ -101,14 +93,14 @@ TEST_F(LibraryFiles, comparisonsAreThoseOfTheProgram) {
   const Comparison differs = compare(black, grey, {}, folder_ / "own");
   EXPECT_FALSE(differs.same);
   EXPECT_EQ(differs.different, std::vector<std::string>{"grey.png"});
-  EXPECT_EQ(program({"compare", black, grey, "-o", "theirs"}).exitCode, 1);
+  EXPECT_EQ(ended({"compare", black, grey, "-o", "theirs"}).exitCode, 1);
   EXPECT_EQ(differs.report, textOf(folder_ / "theirs/report.json"));
   EXPECT_EQ(textOf(folder_ / "own/index.html"), textOf(folder_ / "theirs/index.html"));
   const Allowed allowed{.threshold = "exact", .limits = {"fail=0.1", "failpercent=1"}};
   const Comparison same = compare(black, grey, allowed, folder_ / "own");
   EXPECT_TRUE(same.same) << same.headline;
-  EXPECT_EQ(program({"compare", black, grey, "-o", "theirs", "--threshold", "exact", "--allow",
-                     "fail=0.1,failpercent=1"})
+  EXPECT_EQ(ended({"compare", black, grey, "-o", "theirs", "--threshold", "exact", "--allow",
+                   "fail=0.1,failpercent=1"})
                 .exitCode,
             0);
   EXPECT_EQ(same.report, textOf(folder_ / "theirs/report.json"));
