@@ -48,7 +48,7 @@ void Overrides::addThreadsTo(const CommandLine& command) {
 }
 
 RunOverrides Overrides::read() const {
-  RunOverrides run = *this;
+  auto run = static_cast<const RunOverrides&>(*this);
   if (methodName) {
     const auto place = [](const std::string& name) { return indexAmong(name, kMethodNames); };
     run.method = kMethods.at(parsed("--method", *methodName, place)).method;

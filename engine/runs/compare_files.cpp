@@ -43,7 +43,8 @@ Comparison compareRunsOrTables(const std::filesystem::path& expected, const std:
   std::string broken;
   const auto read = [&](const std::filesystem::path& path) {
     const auto setupOfOther = [&]() -> RunSetup {
-      return readRun(path == expected ? actual : expected, asItIs);
+      const Trajectory other = readRun(path == expected ? actual : expected, asItIs);
+      return static_cast<const RunSetup&>(other);
     };
     Trajectory run = isTable(path)
                          ? readRun(path, tables, areBoth ? std::function<RunSetup()>() : setupOfOther)
