@@ -170,6 +170,15 @@ Run simulateBytes(const std::filesystem::path& path, const std::string& bytes, c
   return simulateScene(path, bytes, how, stop);
 }
 
+Trajectory readBytes(const std::filesystem::path& path, const std::string& bytes, const SceneOfTable& scene,
+                     const std::function<RunSetup()>& setup) {
+  if (scene.useless() != nullptr && !setup && isRun(path, bytes) && !isTable(path, bytes)) {
+    throw InputError(std::string(scene.useless()) + ": found the run " + path.string() +
+                     ", which has its scene; expected a table of poses");
+  }
+  return readRun(path, bytes, scene.reading(), setup);
+}
+
 }  // namespace
 
 Run simulateFile(const std::filesystem::path& path, const Overrides& overrides, const std::stop_token& stop,
@@ -179,17 +188,13 @@ Run simulateFile(const std::filesystem::path& path, const Overrides& overrides, 
 
 Trajectory readRun(const std::filesystem::path& path, const SceneOfTable& scene,
                    const std::function<RunSetup()>& setup) {
-  if (scene.useless() != nullptr && !setup && isRun(path) && !isTable(path)) {
-    throw InputError(std::string(scene.useless()) + ": found the run " + path.string() +
-                     ", which has its scene; expected a table of poses");
-  }
-  return readRun(path, scene.reading(), setup);
+  return readBytes(path, readFile(path), scene, setup);
 }
 
 Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const SceneOfTable& scene,
             const std::stop_token& stop, const RunCallback& progress) {
-  if (!isRun(path)) {
-    const std::string bytes = readFile(path);
+  const std::string bytes = readFile(path);  // once: it may come through a pipe
+  if (!isRun(path, bytes)) {
     if (const char* const option = scene.given()) {
       throw InputError(std::string(option) + ": found the scene " + path.string() +
                        " to be run, expected a table of poses");
@@ -200,7 +205,7 @@ Run loadRun(const std::filesystem::path& path, const Overrides& overrides, const
     throw InputError(std::string(option) + ": found the run " + path.string() +
                      ", expected a scene that is to be run");
   }
-  return {.source = path, .trajectory = readRun(path, scene)};
+  return {.source = path, .trajectory = readBytes(path, bytes, scene, {})};
 }
 
 }  // namespace careen

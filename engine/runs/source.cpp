@@ -53,20 +53,21 @@ PoseTable readTable(const std::string& bytes, const std::string& name, const Run
   return table;
 }
 
-bool isTableOf(const std::string& bytes, const std::filesystem::path& path) {
-  return !isMujocoModel(path) && !looksLikeTrajectory(bytes) && looksLikePoseTable(bytes, path.string());
-}
-
 }  // namespace
 
 bool isMujocoModel(const std::filesystem::path& path) { return path.extension() == ".xml"; }
 
-bool isTable(const std::filesystem::path& path) { return isTableOf(beginningOf(path), path); }
-
-bool isRun(const std::filesystem::path& path) {
-  const std::string begin = beginningOf(path);
-  return looksLikeTrajectory(begin) || isTableOf(begin, path);
+bool isTable(const std::filesystem::path& path, const std::string& bytes) {
+  return !isMujocoModel(path) && !looksLikeTrajectory(bytes) && looksLikePoseTable(bytes, path.string());
 }
+
+bool isRun(const std::filesystem::path& path, const std::string& bytes) {
+  return looksLikeTrajectory(bytes) || isTable(path, bytes);
+}
+
+bool isTable(const std::filesystem::path& path) { return isTable(path, beginningOf(path)); }
+
+bool isRun(const std::filesystem::path& path) { return isRun(path, beginningOf(path)); }
 
 SceneText sceneTextOf(const std::filesystem::path& path, const std::string& bytes, const Notice& notice) {
   if (!isMujocoModel(path)) {
@@ -88,8 +89,12 @@ RunSetup setupOfScene(const std::filesystem::path& scene, const Notice& notice) 
 
 Trajectory readRun(const std::filesystem::path& path, const RunReading& reading,
                    const std::function<RunSetup()>& setup) {
-  const std::string bytes = readFile(path);
-  if (isTableOf(bytes, path)) {
+  return readRun(path, readFile(path), reading, setup);
+}
+
+Trajectory readRun(const std::filesystem::path& path, const std::string& bytes, const RunReading& reading,
+                   const std::function<RunSetup()>& setup) {
+  if (isTable(path, bytes)) {
     if (!reading.scene && !setup) {
       throw InputError(path.string() +
                        ": is a table of poses, without sizes and walls; expected --scene with the scene");

@@ -22,9 +22,12 @@ struct SceneText {
 
 /// Whether the file is a model of MuJoCo, by its name.
 bool isMujocoModel(const std::filesystem::path& path);
-/// Whether it is a table of poses.
-bool isTable(const std::filesystem::path& path);
+/// Whether a file of these bytes, its first 1024 at least, is a table of poses.
+bool isTable(const std::filesystem::path& path, const std::string& bytes);
 /// Whether it is a run: a trajectory, or a table of poses.
+bool isRun(const std::filesystem::path& path, const std::string& bytes);
+/// Likewise, of a file that is there to be read again: what has come through a pipe is gone then.
+bool isTable(const std::filesystem::path& path);
 bool isRun(const std::filesystem::path& path);
 
 /// The scene that a file has: its bytes, or, of a model of MuJoCo (.xml), the scene that it is.
@@ -44,6 +47,8 @@ struct RunReading {
 /// Reads a trajectory file of any version: what an incomplete one lacks is made from the scene text in it. Or
 /// a table of poses, with its scene, or else with the setup that `setup` gives; a trajectory is then shown as
 /// it is. InputError for a table without either.
+Trajectory readRun(const std::filesystem::path& path, const std::string& bytes, const RunReading& reading,
+                   const std::function<RunSetup()>& setup = {});
 Trajectory readRun(const std::filesystem::path& path, const RunReading& reading,
                    const std::function<RunSetup()>& setup = {});
 

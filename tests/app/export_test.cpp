@@ -53,6 +53,18 @@ TEST_F(Export, writesTheFormatThatTheSuffixNames) {
   EXPECT_EQ(textOf(folder_ / "run.npz").substr(0, 2), "PK");
 }
 
+// What has come through a pipe cannot be read again.
+TEST_F(Export, scenesAndRunsComeThroughPipes) {
+  for (const char* const file : {"scene.json", "run.careen"}) {
+    const std::string command =
+        std::string("cat ") + file + " | '" + program() + "' export /dev/stdin --out piped.csv";
+    const Ended ended = Process({"bash", "-c", command}, folder_.path()).wait();
+    ASSERT_EQ(ended.exitCode, 0) << file << ": " << ended.err;
+    EXPECT_EQ(textOf(folder_ / "piped.csv"), textOf(folder_ / "expected.csv")) << file;
+    std::filesystem::remove(folder_ / "piped.csv");
+  }
+}
+
 // The same rows from the run as while it is simulated; only tables and plots take them.
 TEST_F(Export, writesForcesOfContact) {
   ASSERT_EQ(
